@@ -1,0 +1,88 @@
+"""What the compiled core offers to Python. Arrays are float64 and C-contiguous."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+class CoreError(Exception):
+    """The core refused its input or could not finish; the message says why."""
+
+def symmetric_modes(stiffness: Array, mass: Array, count: int) -> tuple[Array, Array]:
+    """Return the lowest modes of ``K x = omega2 M x``.
+
+    Parameters are dense (n, n) symmetric matrices, M positive definite. Returns
+    ``omega2`` (count,) in ascending order and shapes (n, count) with unit modal mass,
+    the component of largest magnitude positive.
+    """
+
+class System:
+    """``q'' + C q' + diag(omega2) q = f``, unit modal mass."""
+
+    def __init__(self, omega2: Array, damping: Array) -> None:
+        """Take omega2 (N,) in rad2/s2 and the diagonal damping (N,) in rad/s."""
+
+class Stop:
+    """A unilateral spring and damper at distance ``d = gap + row . q``."""
+
+    def __init__(self, row: Array, gap: float, stiffness: float, damping: float) -> None: ...
+
+class History:
+    """What a run leaves behind; it can be sampled anywhere in [0, duration]."""
+
+    @property
+    def method(self) -> str: ...
+    @property
+    def duration(self) -> float: ...
+    @property
+    def steps(self) -> int:
+        """Certified cells of the exact method, or time steps."""
+    @property
+    def event_count(self) -> int: ...
+    @property
+    def seconds(self) -> float:
+        """Core time spent so far on this run: integration and everything read since."""
+    def motion(self, times: Array, derivative: int) -> Array:
+        """Modal displacement (0), velocity (1) or acceleration (2), shape (time, mode)."""
+    def law_motion(self, law: int, times: Array) -> tuple[Array, Array, Array]:
+        """Distance in m, its rate in m/s, and force in N of one law, each (time,)."""
+    def energy(self, times: Array) -> dict[str, Array]:
+        """Ledger terms in J.
+
+        ``kinetic``, ``elastic``, ``modal_dissipation``, ``load_work`` are (time,);
+        ``law_stored`` and ``law_dissipated`` are (law, time).
+        """
+    def energy_residual(self) -> float:
+        """Largest imbalance of the ledger relative to the largest energy seen."""
+    def events(self) -> dict[str, list[float] | list[int] | list[str]]:
+        """Columns ``time``, ``law`` (index), ``guard``, ``before``, ``after``."""
+    def impacts(self, law: int) -> dict[str, Array]:
+        """Impacts of one stop, in the order of closing.
+
+        Columns ``start``, ``end`` (NaN while still closed), ``closing_speed``,
+        ``opening_speed``, ``peak_force``, ``peak_time``, ``impulse``,
+        ``energy_absorbed``, ``energy_returned``.
+        """
+
+def simulate(
+    system: System,
+    laws: list[Stop],
+    force: Array,
+    displacement: Array,
+    velocity: Array,
+    duration: float,
+    method: str,
+    dt: float | None = None,
+    beyond_stability_limit: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> History:
+    """Integrate. ``force`` is the constant modal force (N,); releases the GIL.
+
+    ``method`` is ``exact``, ``symplectic_euler`` or ``central_difference``; the fixed-step
+    ones need ``dt``. ``progress`` is called with the fraction done, about ten times a second.
+    """
+
+def stability_limit(system: System, laws: list[Stop], method: str) -> float:
+    """Largest stable step of a fixed-step method with every stop closed, in s."""
