@@ -1,0 +1,130 @@
+"""Checks on what users hand over: each returns the clean value or says what is wrong."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from numbers import Integral, Real
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bumpstop.errors import InputError
+
+__all__ = [
+    "FloatArray",
+    "Vector",
+    "count",
+    "did_you_mean",
+    "finite",
+    "name",
+    "not_negative",
+    "one_of",
+    "positive",
+    "series",
+    "vector",
+]
+
+FloatArray: TypeAlias = NDArray[np.float64]
+Vector: TypeAlias = tuple[float, float, float]
+
+
+def finite(key: str, value: object) -> float:
+    """Return a finite number as a float.
+
+    Raises
+    ------
+    InputError
+        If ``value`` is not a real number, or is infinite or NaN.
+    """
+    if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
+        raise InputError("must be a number", key=key, value=value)
+    number = float(value)
+    if not math.isfinite(number):
+        raise InputError("must be finite", key=key, value=value)
+    return number
+
+
+def positive(key: str, value: object) -> float:
+    """Return a finite number above zero."""
+    number = finite(key, value)
+    if number <= 0.0:
+        raise InputError("must be positive", key=key, value=value)
+    return number
+
+
+def not_negative(key: str, value: object) -> float:
+    """Return a finite number that is zero or above."""
+    number = finite(key, value)
+    if number < 0.0:
+        raise InputError("must not be negative", key=key, value=value)
+    return number
+
+
+def count(key: str, value: object) -> int:
+    """Return a whole number that is one or above."""
+    if isinstance(value, bool) or not isinstance(value, Integral):
+        raise InputError("must be a whole number", key=key, value=value)
+    if value < 1:
+        raise InputError("must be 1 or more", key=key, value=value)
+    return int(value)
+
+
+def name(key: str, value: object) -> str:
+    """Return a name: a string with something in it."""
+    if not isinstance(value, str) or not value.strip():
+        raise InputError("must be a name", key=key, value=value)
+    return value
+
+
+def one_of(key: str, value: object, known: Sequence[str]) -> str:
+    """Return a word that is among the known ones."""
+    if isinstance(value, str) and value in known:
+        return value
+    raise InputError(f"unknown {key}", key=key, value=value, hint=did_you_mean(value, known))
+
+
+def vector(key: str, value: object) -> Vector:
+    """Return three finite numbers along the global axes."""
+    x, y, z = _numbers(key, value, length=3)
+    return (x, y, z)
+
+
+def series(key: str, value: object) -> tuple[float, ...]:
+    """Return finite numbers, at least one."""
+    return _numbers(key, value)
+
+
+def did_you_mean(word: object, known: Iterable[str]) -> str:
+    """Return a hint: the known word most like ``word``, or all of them where none is like it.
+
+    >>> did_you_mean("guid", ["guide", "end stop"])
+    "did you mean 'guide'?"
+    >>> did_you_mean("x", ["guide", "end stop"])
+    'known: guide, end stop'
+    >>> did_you_mean("x", [])
+    'none are defined'
+    """
+    from difflib import get_close_matches
+
+    words = list(known)
+    close = get_close_matches(str(word), words, n=1)
+    if close:
+        return f"did you mean {close[0]!r}?"
+    return f"known: {_listed(words)}" if words else "none are defined"
+
+
+def _listed(words: list[str], longest: int = 12) -> str:
+    more = f" and {len(words) - longest} more" if len(words) > longest else ""
+    return ", ".join(words[:longest]) + more
+
+
+def _numbers(key: str, value: object, length: int | None = None) -> tuple[float, ...]:
+    wanted = "a list of numbers" if length is None else f"a list of {length} numbers"
+    listed = value.tolist() if isinstance(value, np.ndarray) else value
+    if isinstance(listed, str | bytes) or not isinstance(listed, Sequence):
+        raise InputError(f"must be {wanted}", key=key, value=value)
+    if len(listed) == 0 or (length is not None and len(listed) != length):
+        raise InputError(f"must be {wanted}", key=key, value=value)
+    return tuple(finite(key, number) for number in listed)
