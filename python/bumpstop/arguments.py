@@ -21,6 +21,7 @@ __all__ = [
     "name",
     "not_negative",
     "one_of",
+    "pair",
     "positive",
     "series",
     "vector",
@@ -89,6 +90,12 @@ def vector(key: str, value: object) -> Vector:
     """Return three finite numbers along the global axes."""
     x, y, z = _numbers(key, value, length=3)
     return (x, y, z)
+
+
+def pair(key: str, value: object) -> tuple[float, float]:
+    """Return two finite numbers."""
+    first, second = _numbers(key, value, length=2)
+    return (first, second)
 
 
 def series(key: str, value: object) -> tuple[float, ...]:
