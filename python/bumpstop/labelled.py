@@ -1,0 +1,57 @@
+"""Arrays over time with names, units and words: what users and plots like to get."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.quantities import QUANTITIES
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from bumpstop.arguments import FloatArray
+
+__all__ = ["modes_over_time", "over_time", "time_coordinate"]
+
+
+def time_coordinate(times: FloatArray) -> xr.Variable:
+    """Return instants in s as a coordinate."""
+    import xarray as xr
+
+    return xr.Variable("time", times, {"units": "s", "long_name": "time"})
+
+
+def over_time(
+    quantity: str, times: FloatArray, values: FloatArray, **attributes: str
+) -> xr.DataArray:
+    """Return values (time,) of a quantity; attributes add to its unit and long name."""
+    import xarray as xr
+
+    return xr.DataArray(
+        values,
+        coords={"time": time_coordinate(times)},
+        name=quantity,
+        attrs=QUANTITIES[quantity].attributes | attributes,
+    )
+
+
+def modes_over_time(
+    quantity: str, times: FloatArray, values: FloatArray, frequencies: FloatArray
+) -> xr.DataArray:
+    """Return values (time, mode), modes counted from 1 and with their frequencies in Hz."""
+    import xarray as xr
+
+    hertz = {"units": "Hz", "long_name": "natural frequency"}
+    return xr.DataArray(
+        values,
+        dims=("time", "mode"),
+        coords={
+            "time": time_coordinate(times),
+            "mode": np.arange(1, len(frequencies) + 1),
+            "frequency": ("mode", frequencies, hertz),
+        },
+        name=quantity,
+        attrs=QUANTITIES[quantity].attributes,
+    )

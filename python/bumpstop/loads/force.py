@@ -1,0 +1,64 @@
+"""NodalForce: a constant force and moment on a node."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING
+
+from bumpstop.arguments import FloatArray, Vector, name, vector
+from bumpstop.projection import ROTATIONS, direction_row
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["NodalForce"]
+
+
+@dataclass(frozen=True)
+class NodalForce:
+    """A constant force, and a moment where one is given, on one node from t = 0 on.
+
+    Parameters
+    ----------
+    name
+        What the load is called.
+    node
+        The node it acts on: a node's name or a point along a beam (``"AB@0.462"``).
+    force
+        Components along the global axes, in N.
+    moment
+        Components about the global axes, in N m.
+
+    Raises
+    ------
+    InputError
+        If a component is missing or not finite.
+
+    Examples
+    --------
+    >>> NodalForce("push", node="B", force=(0, -5, 0)).force
+    (0.0, -5.0, 0.0)
+    """
+
+    name: str
+    _: KW_ONLY
+    node: str
+    force: Vector = (0.0, 0.0, 0.0)
+    moment: Vector = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        name("name", self.name)
+        name("node", self.node)
+        object.__setattr__(self, "force", vector("force", self.force))
+        object.__setattr__(self, "moment", vector("moment", self.moment))
+
+    def modal_force(self, basis: ModalBasis) -> FloatArray:
+        """Return the force on each mode (N,), for unit modal mass.
+
+        Raises
+        ------
+        InputError
+            If the basis has no shape at the node along a component that is not zero.
+        """
+        force = direction_row(basis, self.node, self.force)
+        return force + direction_row(basis, self.node, self.moment, ROTATIONS)

@@ -1,0 +1,59 @@
+"""Gravity: a uniform acceleration of everything that has mass."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING
+
+from bumpstop.arguments import FloatArray, Vector, name, vector
+from bumpstop.errors import InputError
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["Gravity"]
+
+
+@dataclass(frozen=True)
+class Gravity:
+    """The weight of the structure, from t = 0 on: the mass matrix times an acceleration.
+
+    Parameters
+    ----------
+    name
+        What the load is called.
+    acceleration
+        Components along the global axes, in m/s2.
+
+    Raises
+    ------
+    InputError
+        If a component is missing or not finite.
+
+    Examples
+    --------
+    >>> Gravity("weight", acceleration=(0, 0, -9.81)).acceleration
+    (0.0, 0.0, -9.81)
+    """
+
+    name: str
+    _: KW_ONLY
+    acceleration: Vector
+
+    def __post_init__(self) -> None:
+        name("name", self.name)
+        object.__setattr__(self, "acceleration", vector("acceleration", self.acceleration))
+
+    def modal_force(self, basis: ModalBasis) -> FloatArray:
+        """Return the weight on each mode (N,), for unit modal mass.
+
+        Raises
+        ------
+        InputError
+            If the basis was not made from a structure, so that it has no mass matrix.
+        """
+        if basis.structure is None or basis.mass_rows is None:
+            hint = "give a NodalForce, or make the basis from a structure"
+            raise InputError("needs the masses of a structure", key="acceleration", hint=hint)
+        field = basis.structure.rigid_field(translation=self.acceleration)
+        return basis.mass_rows @ field

@@ -1,0 +1,124 @@
+"""Initial states: where the structure is and how it moves at t = 0."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, Vector, name, series, vector
+from bumpstop.errors import InputError
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["ModalState", "RigidRotation"]
+
+
+@dataclass(frozen=True)
+class ModalState:
+    """Displacement and velocity of each mode of the basis as its user gave it.
+
+    Parameters
+    ----------
+    displacement
+        Modal displacements (N,) in m kg^0.5 (unit modal mass); all zero where left out.
+    velocity
+        Modal velocities (N,) in m kg^0.5/s; all zero where left out.
+
+    Raises
+    ------
+    InputError
+        If a list is empty or a number not finite.
+
+    Examples
+    --------
+    >>> ModalState(velocity=[0.2, 0.0])
+    ModalState(displacement=None, velocity=(0.2, 0.0))
+    """
+
+    _: KW_ONLY
+    displacement: Sequence[float] | FloatArray | None = None
+    velocity: Sequence[float] | FloatArray | None = None
+
+    def __post_init__(self) -> None:
+        for key in ("displacement", "velocity"):
+            given = getattr(self, key)
+            if given is not None:
+                object.__setattr__(self, key, series(key, given))
+
+    def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
+        """Return modal displacement and velocity, each (N,).
+
+        Raises
+        ------
+        InputError
+            If a list has not one number a mode.
+        """
+        modes = len(basis.omega2)
+        displacement = _one_a_mode("displacement", self.displacement, modes)
+        return displacement, _one_a_mode("velocity", self.velocity, modes)
+
+
+@dataclass(frozen=True)
+class RigidRotation:
+    """A velocity field: the whole structure turns about a node, undeformed.
+
+    A node at x moves with ``rate x (x - about)`` and turns with ``rate``; the field is
+    projected on the modes with the mass matrix.
+
+    Parameters
+    ----------
+    about
+        Name of the node that the structure turns about.
+    rate
+        Angular velocity about the global axes, in rad/s.
+
+    Raises
+    ------
+    InputError
+        If a component is missing or not finite.
+
+    Examples
+    --------
+    >>> RigidRotation(about="A", rate=(0, 0, -3.8)).rate
+    (0.0, 0.0, -3.8)
+    """
+
+    about: str
+    rate: Vector
+
+    def __post_init__(self) -> None:
+        name("about", self.about)
+        object.__setattr__(self, "rate", vector("rate", self.rate))
+
+    def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
+        """Return modal displacement, which is zero, and velocity, each (N,).
+
+        Raises
+        ------
+        InputError
+            If the basis was not made from a structure, the structure has no such node, or no
+            mode takes part in the rotation.
+        """
+        if basis.structure is None:
+            hint = "give a ModalState, or make the basis from a structure"
+            raise InputError("needs a structure to turn", key="about", value=self.about, hint=hint)
+        centre = basis.structure.position(self.about)
+        velocity = basis.project_field(
+            basis.structure.rigid_field(rotation=self.rate, about=centre)
+        )
+        if any(self.rate) and not velocity.any():
+            raise InputError("no mode takes part in this rotation", key="rate", value=self.rate)
+        return np.zeros(len(velocity)), velocity
+
+
+def _one_a_mode(key: str, values: Sequence[float] | FloatArray | None, modes: int) -> FloatArray:
+    if values is None:
+        return np.zeros(modes)
+    if len(values) != modes:
+        what = f"must have one number for each of the {modes} modes"
+        raise InputError(what, key=key, value=f"{len(values)} numbers")
+    return np.array(values)

@@ -1,0 +1,1 @@
+"""What a response tells: impacts, energies, comparisons. Pure functions of it."""

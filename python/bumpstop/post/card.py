@@ -1,0 +1,36 @@
+"""The card that a notebook shows for a response."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bumpstop.response import Response
+
+__all__ = ["response_card"]
+
+STYLE = "style='padding:0.1em 1em 0.1em 0;text-align:left'"
+
+
+def response_card(response: Response) -> str:
+    """Return a small HTML table: what was run, how, and how well its energies balance."""
+    problem = response.problem
+    step = response.options.get("dt")
+    method = response.method if step is None else f"{response.method}, dt = {step:g} s"
+    rows = {
+        "duration": f"{problem.duration:g} s",
+        "modes": str(len(problem.basis.omega2)),
+        "stops": ", ".join(law.name for law in problem.laws) or "none",
+        "method": method,
+        "steps": f"{response.steps:,}",
+        "impacts": str(len(response.impact_table()["start"])),
+        "energy residual": f"{response.energy_residual:.1e}",
+        "solved in": f"{response.solve_seconds * 1e3:.3g} ms",
+    }
+    body = "".join(_row(label, value) for label, value in rows.items())
+    return f"<table><caption>bumpstop response</caption>{body}</table>"
+
+
+def _row(label: str, value: str) -> str:
+    return f"<tr><th {STYLE}>{escape(label)}</th><td {STYLE}>{escape(value)}</td></tr>"

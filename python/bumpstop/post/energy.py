@@ -1,0 +1,78 @@
+"""The energy ledger over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.labelled import time_coordinate
+from bumpstop.quantities import ENERGIES, STOP_ENERGIES
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from bumpstop.arguments import FloatArray
+    from bumpstop.response import Response
+
+__all__ = ["energy_dataset", "energy_terms", "stop_energies"]
+
+
+def energy_terms(response: Response, times: FloatArray) -> dict[str, FloatArray]:
+    """Return the ledger's terms, each (time,) in J.
+
+    The core integrates each term from its own power; this only adds them up:
+    ``total = kinetic + elastic + stored + dissipated_damping + dissipated_stops``, which
+    without rounding equals ``total_initial + load_work``; ``residual`` is what it misses.
+
+    Parameters
+    ----------
+    response
+        The response whose energies are asked for.
+    times
+        Instants in s within the simulated time.
+    """
+    # One call, with the start put first, so that the initial energy is summed as the others.
+    core = response.history.energy(np.concatenate(([0.0], times)))
+    stored = core["law_stored"].sum(axis=0)
+    dissipated = core["law_dissipated"].sum(axis=0)
+    present = core["kinetic"] + core["elastic"] + stored
+    total = present + core["modal_dissipation"] + dissipated
+    terms = {
+        "kinetic": core["kinetic"],
+        "elastic": core["elastic"],
+        "stored": stored,
+        "dissipated_damping": core["modal_dissipation"],
+        "dissipated_stops": dissipated,
+        "load_work": core["load_work"],
+        "total": total,
+        "total_initial": np.full_like(total, present[0]),
+        "residual": total - present[0] - core["load_work"],
+    }
+    return {name: values[1:] for name, values in terms.items()}
+
+
+def stop_energies(response: Response, times: FloatArray) -> dict[str, FloatArray]:
+    """Return what each stop stores and has dissipated, each (time, stop) in J."""
+    core = response.history.energy(times)
+    return {
+        "stored_in_stop": core["law_stored"].T,
+        "dissipated_in_stop": core["law_dissipated"].T,
+    }
+
+
+def energy_dataset(response: Response) -> xr.Dataset:
+    """Return the ledger at the response's times, with the share of each stop."""
+    import xarray as xr
+
+    times = response.times
+    ledger = {
+        name: ("time", values, ENERGIES[name].attributes)
+        for name, values in energy_terms(response, times).items()
+    }
+    shares = {
+        name: (("time", "stop"), values, STOP_ENERGIES[name].attributes)
+        for name, values in stop_energies(response, times).items()
+    }
+    stops = [law.name for law in response.problem.laws]
+    return xr.Dataset(ledger | shares, coords={"time": time_coordinate(times), "stop": stops})

@@ -1,0 +1,233 @@
+"""Published values, and how far a response is from them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, count, not_negative, one_of, series
+from bumpstop.errors import InputError
+from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, dof_units
+
+if TYPE_CHECKING:
+    from bumpstop.response import Response
+
+__all__ = ["REFERENCE_QUANTITIES", "Check", "Reference", "check_references"]
+
+TARGETS = ("node", "dof", "mode", "stop", "gauge", "term", "impact")
+
+IMPACT_COLUMNS = {
+    "impact_start": "start",
+    "impact_end": "end",
+    "impact_duration": "duration",
+    "closing_speed": "closing_speed",
+    "opening_speed": "opening_speed",
+    "peak_force": "peak_force",
+    "peak_time": "peak_time",
+    "impulse": "impulse",
+    "energy_returned": "energy_returned",
+}
+"""Quantities of an impact, and the column of the impact table that each is."""
+
+REFERENCE_QUANTITIES: dict[str, tuple[str, ...]] = {
+    **{quantity: what.target for quantity, what in QUANTITIES.items()},
+    "energy": ("term",),
+    **dict.fromkeys(IMPACT_COLUMNS, ("stop", "impact")),
+}
+"""Each quantity that can be compared, and what says of which part it is."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reference:
+    """Values that somebody published, closed forms among them.
+
+    Parameters
+    ----------
+    quantity
+        What they are values of: a quantity of time (``displacement``, ``velocity``,
+        ``acceleration`` of a ``node`` and ``dof``, ``modal_displacement`` of a ``mode``
+        counted from 1, ``stop_force`` and ``gap`` of a ``stop``, ``gauge`` of a ``gauge``,
+        ``energy`` of a ``term`` of the ledger), or one of an ``impact`` of a ``stop``, counted
+        from 1 (``impact_start``, ``impact_end``, ``impact_duration``, ``closing_speed``,
+        ``opening_speed``, ``peak_force``, ``peak_time``, ``impulse``, ``energy_returned``).
+    times
+        Instants in s, one a value; none for a quantity of an impact.
+    values
+        The published values in SI units; one for a quantity of an impact.
+    tolerance
+        Largest deviation relative to the size of the value.
+    absolute_tolerance
+        Largest deviation in the quantity's own unit; give this or `tolerance`.
+    node, dof, mode, stop, gauge, term, impact
+        What it is the quantity of.
+    source
+        Where the values come from.
+
+    Raises
+    ------
+    InputError
+        If the quantity is unknown, what it needs is missing, or there are not as many times
+        as values.
+    """
+
+    quantity: str
+    values: Sequence[float]
+    times: Sequence[float] = ()
+    tolerance: float | None = None
+    absolute_tolerance: float | None = None
+    node: str | None = None
+    dof: str | None = None
+    mode: int | None = None
+    stop: str | None = None
+    gauge: str | None = None
+    term: str | None = None
+    impact: int | None = None
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        one_of("quantity", self.quantity, tuple(REFERENCE_QUANTITIES))
+        object.__setattr__(self, "values", series("values", self.values))
+        object.__setattr__(self, "times", series("times", self.times) if len(self.times) else ())
+        self._check_target()
+        self._check_lengths()
+        self._check_tolerances()
+
+    @property
+    def target(self) -> tuple[str, *tuple[str | int, ...]]:
+        """The quantity and what it is that of, as `Response.sample` takes them."""
+        parts = (getattr(self, key) for key in REFERENCE_QUANTITIES[self.quantity])
+        return (self.quantity, *parts)
+
+    @property
+    def units(self) -> str:
+        """Unit of the values."""
+        if self.dof is not None:
+            return dof_units(self.quantity, self.dof)
+        if self.quantity == "energy":
+            return ENERGIES[str(self.term)].units
+        if self.impact is not None:
+            return IMPACTS[IMPACT_COLUMNS[self.quantity]].units
+        return QUANTITIES[self.quantity].units
+
+    def _check_target(self) -> None:
+        wanted = REFERENCE_QUANTITIES[self.quantity]
+        for key in TARGETS:
+            given = getattr(self, key)
+            if key in wanted and given is None:
+                raise InputError(f"is needed for {self.quantity}", key=key)
+            if key not in wanted and given is not None:
+                what = f"does not belong to {self.quantity}"
+                hint = f"it is that of a {' and a '.join(wanted)}"
+                raise InputError(what, key=key, value=given, hint=hint)
+        for key in ("mode", "impact"):
+            if key in wanted:
+                count(key, getattr(self, key))
+        if self.term is not None:
+            one_of("term", self.term, tuple(ENERGIES))
+
+    def _check_lengths(self) -> None:
+        if self.impact is not None:
+            if self.times or len(self.values) != 1:
+                what = f"{self.quantity} is one value of one impact, without times"
+                raise InputError(what, key="values", value=self.values)
+        elif len(self.times) != len(self.values):
+            what = f"must be as many as there are values, {len(self.values)}"
+            raise InputError(what, key="times", value=self.times)
+
+    def _check_tolerances(self) -> None:
+        both = ("tolerance", "absolute_tolerance")
+        given = [key for key in both if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise InputError("give either tolerance or absolute_tolerance", key="tolerance")
+        object.__setattr__(self, given[0], not_negative(given[0], getattr(self, given[0])))
+        if self.tolerance is not None and 0.0 in self.values:
+            hint = "give absolute_tolerance"
+            raise InputError("nothing is relative to a value of 0", key="tolerance", hint=hint)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """One published value beside the computed one.
+
+    ``deviation`` is the size of the difference, relative to that of the reference, or in the
+    quantity's unit where the tolerance is ``absolute``. ``time`` is in s; for a quantity of an
+    impact it is the instant of closing. Where there is no such impact, ``value``,
+    ``deviation`` and ``time`` are NaN, and a NaN never passes.
+    """
+
+    quantity: str
+    target: tuple[str, *tuple[str | int, ...]]
+    units: str
+    time: float
+    value: float
+    reference: float
+    deviation: float
+    tolerance: float
+    absolute: bool
+    passed: bool
+    source: str
+
+
+def check_references(response: Response, references: Iterable[Reference]) -> list[Check]:
+    """Compare a response with published values, one check a value.
+
+    Raises
+    ------
+    InputError
+        If the problem has no such node, stop, gauge or mode, or an instant is outside the
+        simulated time.
+    """
+    checks = []
+    for reference in references:
+        times, values = _computed(response, reference)
+        for time, value, published in zip(times, values, reference.values, strict=True):
+            checks.append(_check(reference, float(time), float(value), published))
+    return checks
+
+
+def _computed(response: Response, reference: Reference) -> tuple[FloatArray, FloatArray]:
+    """Return instants and computed values, each (n,)."""
+    times = np.array(reference.times)
+    if reference.impact is not None:
+        return _of_impact(response, reference)
+    if reference.quantity == "energy":
+        return times, response.energy_terms(times)[str(reference.term)]
+    return times, response.sample(*reference.target, times=times)
+
+
+def _of_impact(response: Response, reference: Reference) -> tuple[FloatArray, FloatArray]:
+    stops = [law.name for law in response.problem.laws]
+    one_of("stop", reference.stop, stops)
+    table = response.impact_table()
+    rows = [row for row, stop in enumerate(table["stop"]) if stop == reference.stop]
+    if reference.impact is None or reference.impact > len(rows):
+        return np.array([math.nan]), np.array([math.nan])
+    row = rows[reference.impact - 1]
+    column = table[IMPACT_COLUMNS[reference.quantity]]
+    return np.array([table["start"][row]]), np.array([column[row]])
+
+
+def _check(reference: Reference, time: float, value: float, published: float) -> Check:
+    deviation = abs(value - published)
+    if reference.absolute_tolerance is not None:
+        tolerance = reference.absolute_tolerance
+    else:
+        deviation /= abs(published)
+        tolerance = reference.tolerance or 0.0
+    return Check(
+        quantity=reference.quantity,
+        target=reference.target,
+        units=reference.units,
+        time=time,
+        value=value,
+        reference=published,
+        deviation=deviation,
+        tolerance=tolerance,
+        absolute=reference.absolute_tolerance is not None,
+        passed=deviation <= tolerance,
+        source=reference.source,
+    )

@@ -1,0 +1,184 @@
+"""Problem: everything that a simulation needs, as numbers."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, positive
+from bumpstop.errors import InputError
+from bumpstop.laws import Stop
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.gauge import Gauge
+
+__all__ = ["InitialState", "Load", "Problem"]
+
+DEFAULT_SAMPLES = 1000
+MOST_SAMPLES = 5_000_000
+SNAP = 1e-6
+"""A duration this close to a whole number of samples, in samples, is taken as whole."""
+
+
+@runtime_checkable
+class Load(Protocol):
+    """A force that does not depend on the motion."""
+
+    @property
+    def name(self) -> str:
+        """What the load is called."""
+
+    def modal_force(self, basis: ModalBasis) -> FloatArray:
+        """Return the force on each mode (N,)."""
+
+
+class InitialState(Protocol):
+    """Where the structure is and how it moves at t = 0."""
+
+    def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
+        """Return modal displacement and velocity, each (N,)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A basis with its laws, loads and initial state, and for how long to watch it.
+
+    Whatever names a node is looked up when the problem is made, so that a problem that
+    exists can be run.
+
+    Parameters
+    ----------
+    basis
+        The modes of the linear structure.
+    laws
+        Its local nonlinearities; names must differ.
+    loads
+        Constant forces; names must differ.
+    initial
+        State at t = 0; at rest and undeformed where left out.
+    duration
+        Time to simulate, in s.
+    sample
+        Interval in s of the grid on which responses are tabulated; a thousandth of the
+        duration where left out. It has no influence on the solution.
+    gauges
+        Strain gauges; names must differ.
+    outputs
+        Pairs (node, dof) whose motion is written to files beside the nodes of the stops.
+
+    Raises
+    ------
+    InputError
+        If a name is used twice, a node or dof is unknown to the basis, or a number is out
+        of its range.
+
+    Examples
+    --------
+    >>> from bumpstop.loads import ModalState
+    >>> from bumpstop.modal.basis import ModalBasis
+    >>> basis = ModalBasis.from_modes(frequency=[3.0], damping=[0.01], shapes={("P", "dx"): [1.0]})
+    >>> stop = Stop("guide", node="P", normal=(-1, 0, 0), gap=1e-3, stiffness=1e6)
+    >>> problem = Problem(basis, laws=[stop], initial=ModalState(velocity=[0.2]), duration=1.0)
+    >>> problem.sample
+    0.001
+    """
+
+    basis: ModalBasis
+    _: KW_ONLY
+    laws: Sequence[Stop] = ()
+    loads: Sequence[Load] = ()
+    initial: InitialState | None = None
+    duration: float
+    sample: float | None = None
+    gauges: Sequence[Gauge] = ()
+    outputs: Sequence[tuple[str, str]] = ()
+
+    def __post_init__(self) -> None:
+        for key, kind in (("laws", Stop), ("loads", Load), ("gauges", object), ("outputs", tuple)):
+            object.__setattr__(self, key, _listed(key, getattr(self, key), kind))
+        object.__setattr__(self, "duration", positive("duration", self.duration))
+        if self.sample is not None:
+            object.__setattr__(self, "sample", positive("sample", self.sample))
+        self._check_sample()
+        self._check_names()
+        self._check_targets()
+
+    @property
+    def times(self) -> FloatArray:
+        """The sample grid in s: 0, sample, 2 sample, ... and always the duration, last."""
+        interval = self.duration / DEFAULT_SAMPLES if self.sample is None else self.sample
+        ratio = self.duration / interval
+        whole = round(ratio)
+        if abs(ratio - whole) > SNAP:
+            return np.append(np.arange(int(ratio) + 1) * interval, self.duration)
+        times = np.arange(whole + 1, dtype=np.float64) * interval
+        times[-1] = self.duration
+        return times
+
+    def _check_sample(self) -> None:
+        if self.sample is None:
+            return
+        if self.sample > self.duration * (1.0 + SNAP):
+            raise InputError(
+                "must not exceed the duration",
+                key="sample",
+                value=self.sample,
+                hint=f"the duration is {self.duration:g} s",
+            )
+        if self.duration / self.sample > MOST_SAMPLES:
+            raise InputError(
+                f"gives more than {MOST_SAMPLES:,} samples",
+                key="sample",
+                value=self.sample,
+                hint=f"take at least {self.duration / MOST_SAMPLES:.3g} s; "
+                "the solution itself does not depend on it",
+            )
+
+    def _check_names(self) -> None:
+        for key in ("laws", "loads", "gauges"):
+            names = Counter(part.name for part in getattr(self, key))
+            twice = [name for name, times in names.items() if times > 1]
+            if twice:
+                raise InputError("names must differ", key=key, value=twice[0])
+
+    def _check_targets(self) -> None:
+        for law in self.laws:
+            with _at(f"{law.table}.{law.name}"):
+                law.row(self.basis)
+        for load in self.loads:
+            with _at(f"loads.{load.name}"):
+                load.modal_force(self.basis)
+        for gauge in self.gauges:
+            with _at(f"gauges.{gauge.name}"):
+                self.basis.gauge_row(gauge)
+        for node, dof in self.outputs:
+            with _at("outputs"):
+                self.basis.row(node, dof)
+        if self.initial is not None:
+            with _at("initial"):
+                self.initial.modal_state(self.basis)
+
+
+def _listed(key: str, parts: object, kind: type) -> tuple[object, ...]:
+    if not isinstance(parts, list | tuple):
+        raise InputError("must be a list", key=key, value=parts)
+    for part in parts:
+        if not isinstance(part, kind):
+            raise InputError(f"must hold {kind.__name__}s", key=key, value=part)
+    return tuple(parts)
+
+
+@contextmanager
+def _at(place: str) -> Iterator[None]:
+    """Say in which part of the problem an argument was wrong."""
+    try:
+        yield
+    except InputError as error:
+        key = f"{place}.{error.key}" if error.key else place
+        raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error

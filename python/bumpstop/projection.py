@@ -1,0 +1,34 @@
+"""Vectors at a node, seen by the modes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, Vector
+from bumpstop.structure.dofs import DOFS
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["ROTATIONS", "TRANSLATIONS", "direction_row"]
+
+TRANSLATIONS = DOFS[:3]
+ROTATIONS = DOFS[3:]
+
+
+def direction_row(
+    basis: ModalBasis, node: str, direction: Vector, dofs: tuple[str, ...] = TRANSLATIONS
+) -> FloatArray:
+    """Return ``direction . shapes`` of a node, one value a mode, shape (N,).
+
+    It is both the motion along ``direction`` per unit of modal displacement and the modal
+    force of ``direction`` taken as a force in N. Components that are zero ask nothing of the
+    basis, so that a basis with shapes along x alone does for a stop along x.
+    """
+    row = np.zeros(len(basis.omega2))
+    for component, dof in zip(direction, dofs, strict=True):
+        if component != 0.0:
+            row += component * basis.row(node, dof)
+    return row

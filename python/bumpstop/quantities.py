@@ -1,0 +1,83 @@
+"""What can be read from a response: names, units and words for axes and files."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from bumpstop.structure.dofs import DOFS
+
+__all__ = ["ENERGIES", "IMPACTS", "QUANTITIES", "STOP_ENERGIES", "Quantity", "dof_units"]
+
+
+class Quantity(NamedTuple):
+    """What a quantity is.
+
+    Its unit, written so that both UDUNITS and pint read it; its name in words; what it is
+    the quantity of.
+    """
+
+    units: str
+    long_name: str
+    target: tuple[str, ...] = ()
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Unit and long name, as attributes of an array or of a variable in a file."""
+        return {"units": self.units, "long_name": self.long_name}
+
+
+QUANTITIES = {
+    "displacement": Quantity("m", "displacement", ("node", "dof")),
+    "velocity": Quantity("m/s", "velocity", ("node", "dof")),
+    "acceleration": Quantity("m/s^2", "acceleration", ("node", "dof")),
+    # Modes have unit modal mass. UDUNITS knows no square roots; there is no truer unit.
+    "modal_displacement": Quantity("kg^0.5 m", "modal displacement", ("mode",)),
+    "modal_velocity": Quantity("kg^0.5 m/s", "modal velocity", ("mode",)),
+    "modal_acceleration": Quantity("kg^0.5 m/s^2", "modal acceleration", ("mode",)),
+    "stop_force": Quantity("N", "force of the stop on the structure along its normal", ("stop",)),
+    "gap": Quantity("m", "distance to the stop, negative while it is pressed", ("stop",)),
+    "gauge": Quantity("1", "axial strain", ("gauge",)),
+}
+"""Quantities that are functions of time."""
+
+ENERGIES = {
+    "kinetic": Quantity("J", "kinetic energy"),
+    "elastic": Quantity("J", "elastic energy of the linear structure"),
+    "stored": Quantity("J", "energy stored in the stops"),
+    "dissipated_damping": Quantity("J", "energy dissipated by modal damping"),
+    "dissipated_stops": Quantity("J", "energy dissipated by the stops"),
+    "load_work": Quantity("J", "work of the loads"),
+    "total": Quantity("J", "kinetic, elastic, stored and dissipated energy together"),
+    "total_initial": Quantity("J", "kinetic, elastic and stored energy at t = 0"),
+    "residual": Quantity("J", "total less its initial value and the work of the loads"),
+}
+"""Terms of the energy ledger, functions of time."""
+
+STOP_ENERGIES = {
+    "stored_in_stop": Quantity("J", "energy stored in each stop"),
+    "dissipated_in_stop": Quantity("J", "energy dissipated by each stop"),
+}
+"""What each stop has of the ledger, functions of time."""
+
+IMPACTS = {
+    "start": Quantity("s", "instant of closing"),
+    "end": Quantity("s", "instant of opening"),
+    "duration": Quantity("s", "time closed"),
+    "closing_speed": Quantity("m/s", "speed towards the stop at closing"),
+    "opening_speed": Quantity("m/s", "speed away from the stop at opening"),
+    "peak_force": Quantity("N", "largest force"),
+    "impulse": Quantity("N s", "integral of the force over the contact"),
+    "energy_returned": Quantity("J", "work of the stop on the structure while it pushes it off"),
+    "peak_time": Quantity("s", "instant of the largest force"),
+}
+"""Columns of the impact table beside the stop's name."""
+
+
+def dof_units(quantity: str, dof: str) -> str:
+    """Return the unit of a displacement, velocity or acceleration along a dof.
+
+    >>> dof_units("velocity", "dy"), dof_units("velocity", "drz")
+    ('m/s', 'rad/s')
+    """
+    units = QUANTITIES[quantity].units
+    return units if dof in DOFS[:3] else units.replace("m", "rad", 1)

@@ -1,0 +1,371 @@
+"""Response: what a simulation leaves behind, to be read at any time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, one_of
+from bumpstop.errors import InputError
+from bumpstop.labelled import modes_over_time, over_time
+from bumpstop.quantities import QUANTITIES, dof_units
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    import pandas as pd
+    import xarray as xr
+    from numpy.typing import ArrayLike
+
+    from bumpstop._core import History
+    from bumpstop.post.impacts import Table
+    from bumpstop.problem import Problem
+
+__all__ = ["Response"]
+
+ROUNDING = 1e-12
+"""How far beyond the simulated time an instant may lie, relative to the duration."""
+MOTIONS = ("displacement", "velocity", "acceleration")
+"""Position in this list is the derivative that the core is asked for."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Response:
+    """The motion of a problem, kept as the core's phases or steps and sampled when asked for.
+
+    Parameters
+    ----------
+    problem
+        What was simulated.
+    history
+        The core's record of the run.
+    times
+        Instants in s at which quantities are tabulated; `at` gives the same response on others.
+    method_reason
+        Why this method was taken.
+    options
+        Options of the method: its step ``dt`` in s, where it has one.
+    """
+
+    problem: Problem
+    history: History
+    _: KW_ONLY
+    times: FloatArray
+    method_reason: str
+    options: Mapping[str, float]
+
+    def __post_init__(self) -> None:
+        times = _checked_times(self.times, self.problem.duration)
+        object.__setattr__(self, "times", times)
+
+    def __repr__(self) -> str:
+        return (
+            f"<Response: {self.problem.duration:g} s by the {self.method} method, "
+            f"{self.steps} steps, {self.event_count} events>"
+        )
+
+    def _repr_html_(self) -> str:
+        from bumpstop.post.card import response_card
+
+        return response_card(self)
+
+    @property
+    def method(self) -> str:
+        """Name of the method that was used."""
+        return self.history.method
+
+    @property
+    def steps(self) -> int:
+        """Cells that the exact method certified, or time steps of the others."""
+        return self.history.steps
+
+    @property
+    def event_count(self) -> int:
+        """How many times a law switched."""
+        return self.history.event_count
+
+    @property
+    def solve_seconds(self) -> float:
+        """Time in s spent in the core so far: integration and everything read since."""
+        return self.history.seconds
+
+    @property
+    def energy_residual(self) -> float:
+        """Largest imbalance of the energy ledger relative to the largest energy seen."""
+        return self.history.energy_residual()
+
+    def at(self, times: ArrayLike) -> Response:
+        """Return this response tabulated at other instants.
+
+        Parameters
+        ----------
+        times
+            Instants in s within the simulated time, shape (n,).
+
+        Raises
+        ------
+        InputError
+            If an instant is outside the simulated time.
+        """
+        return replace(self, times=np.asarray(times))
+
+    # Plain arrays: what everything inside uses, so that a run needs no xarray or pandas.
+
+    def motion(self, derivative: int = 0, times: ArrayLike | None = None) -> FloatArray:
+        """Return modal displacement (0), velocity (1) or acceleration (2), shape (time, N)."""
+        return self.history.motion(self._instants(times), derivative)
+
+    def sample(
+        self, quantity: str, *target: str | int, times: ArrayLike | None = None
+    ) -> FloatArray:
+        """Return a quantity over time as a plain array.
+
+        Parameters
+        ----------
+        quantity
+            ``displacement``, ``velocity``, ``acceleration`` of a node and dof (m or rad, and
+            per s and s2); ``modal_displacement``, ``modal_velocity``, ``modal_acceleration``
+            of a mode counted from 1, or of all; ``stop_force`` (N) and ``gap`` (m) of a stop;
+            ``gauge`` (strain) of a gauge.
+        target
+            What it is the quantity of: ``"B", "dy"``, or ``"guide"``.
+        times
+            Instants in s; those of the response where left out.
+
+        Returns
+        -------
+        ndarray
+            Values (time,), or (time, N) for all modes.
+
+        Raises
+        ------
+        InputError
+            If quantity or target are unknown, or an instant is outside the simulated time.
+
+        Examples
+        --------
+        >>> import bumpstop as bs
+        >>> basis = bs.ModalBasis.from_modes(frequency=[0], damping=[0], shapes={("P", "dx"): [1]})
+        >>> drift = bs.Problem(basis, initial=bs.ModalState(velocity=[2.0]), duration=1.0)
+        >>> bs.simulate(drift).sample("displacement", "P", "dx", times=[0.0, 0.5]).tolist()
+        [0.0, 1.0]
+        """
+        one_of("quantity", quantity, tuple(QUANTITIES))
+        _check_target(quantity, target)
+        if quantity in MOTIONS:
+            node, dof = map(str, target)
+            row = self.problem.basis.row(node, dof)
+            return _along(row, self.motion(MOTIONS.index(quantity), times))
+        if quantity == "gauge":
+            return _along(self._gauge_row(str(target[0])), self.motion(0, times))
+        if quantity in ("stop_force", "gap"):
+            law = self._law_index(str(target[0]))
+            distance, _, force = self.history.law_motion(law, self._instants(times))
+            return force if quantity == "stop_force" else distance
+        motion = self.motion(MOTIONS.index(quantity.removeprefix("modal_")), times)
+        return motion[:, self._mode_index(target[0])] if target else motion
+
+    def energy_terms(self, times: ArrayLike | None = None) -> dict[str, FloatArray]:
+        """Return the energy ledger as plain arrays (time,), in J; see `energy`."""
+        from bumpstop.post.energy import energy_terms
+
+        return energy_terms(self, self._instants(times))
+
+    def impact_table(self) -> Table:
+        """Return the impacts as plain columns; see `impacts`."""
+        from bumpstop.post.impacts import impact_table
+
+        return impact_table(self)
+
+    def event_table(self) -> Table:
+        """Return the events as plain columns; see `events`."""
+        from bumpstop.post.impacts import event_table
+
+        return event_table(self)
+
+    # Labelled results.
+
+    def displacement(self, node: str, dof: str) -> xr.DataArray:
+        """Return the displacement of a node over time, in m (rad for a rotation).
+
+        Parameters
+        ----------
+        node
+            A node's name or a point along a beam (``"AB@0.462"``).
+        dof
+            One of ``dx dy dz drx dry drz``.
+
+        Raises
+        ------
+        InputError
+            If the basis knows no such node or dof.
+        """
+        return self._nodal("displacement", node, dof)
+
+    def velocity(self, node: str, dof: str) -> xr.DataArray:
+        """Return the velocity of a node over time, in m/s (rad/s); see `displacement`."""
+        return self._nodal("velocity", node, dof)
+
+    def acceleration(self, node: str, dof: str) -> xr.DataArray:
+        """Return the acceleration of a node over time, in m/s2 (rad/s2); see `displacement`."""
+        return self._nodal("acceleration", node, dof)
+
+    def modal_displacement(self) -> xr.DataArray:
+        """Return the modal displacements (time, mode), in kg^0.5 m, modes counted from 1."""
+        frequencies = self.problem.basis.frequencies
+        return modes_over_time("modal_displacement", self.times, self.motion(0), frequencies)
+
+    def stop_force(self, name: str) -> xr.DataArray:
+        """Return the force of a stop on the structure over time, in N along its normal.
+
+        Raises
+        ------
+        InputError
+            If there is no such stop.
+        """
+        return over_time("stop_force", self.times, self.sample("stop_force", name), stop=name)
+
+    def gap(self, name: str) -> xr.DataArray:
+        """Return the distance to a stop over time, in m; it is negative while pressed.
+
+        Raises
+        ------
+        InputError
+            If there is no such stop.
+        """
+        return over_time("gap", self.times, self.sample("gap", name), stop=name)
+
+    def gauge(self, name: str) -> xr.DataArray:
+        """Return the axial strain at a gauge over time.
+
+        Raises
+        ------
+        InputError
+            If there is no such gauge.
+        """
+        return over_time("gauge", self.times, self.sample("gauge", name), gauge=name)
+
+    @property
+    def energy(self) -> xr.Dataset:
+        """The energy ledger over time, in J.
+
+        ``kinetic``, ``elastic`` (of the linear structure), ``stored`` (in the stops, and
+        ``stored_in_stop`` for each), ``dissipated_damping``, ``dissipated_stops`` (and
+        ``dissipated_in_stop``), ``load_work``; ``total`` is what is there or was dissipated,
+        ``total_initial`` what was there at t = 0, and ``residual = total - total_initial -
+        load_work``. Every term is integrated from its own power.
+        """
+        from bumpstop.post.energy import energy_dataset
+
+        return energy_dataset(self)
+
+    @property
+    def impacts(self) -> pd.DataFrame:
+        """Every contact of every stop, in the order of closing.
+
+        Columns: ``stop``; ``start``, ``end`` and ``duration`` in s (``end`` and ``duration``
+        are NaN while the stop is still closed); ``closing_speed`` and ``opening_speed`` in
+        m/s, the rate of the distance at both instants, positive towards and away from the
+        stop; ``peak_force`` in N; ``impulse`` in N s, the integral of the force;
+        ``energy_returned`` in J, the work of the stop on the structure while they part;
+        ``peak_time`` in s.
+        """
+        import pandas as pd
+
+        return pd.DataFrame(self.impact_table())
+
+    @property
+    def events(self) -> pd.DataFrame:
+        """Every switch of every law: ``time`` in s, ``law``, ``guard``, ``before``, ``after``."""
+        import pandas as pd
+
+        return pd.DataFrame(self.event_table())
+
+    def to_netcdf(
+        self,
+        path: str | PathLike[str],
+        *,
+        title: str | None = None,
+        case: str | None = None,
+        variant: str | None = None,
+    ) -> None:
+        """Write the response, tabulated at its times, to a NetCDF-4 file.
+
+        Parameters
+        ----------
+        path
+            File to write; a file of that name is replaced once the new one is complete.
+        title, case, variant
+            What to say in the file about where the problem comes from.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be written there.
+        """
+        from bumpstop.io.netcdf import write_netcdf
+
+        write_netcdf(self, path, title=title, case=case, variant=variant)
+
+    def _instants(self, times: ArrayLike | None) -> FloatArray:
+        return self.times if times is None else _checked_times(times, self.problem.duration)
+
+    def _law_index(self, stop: str) -> int:
+        names = [law.name for law in self.problem.laws]
+        return names.index(one_of("stop", stop, names))
+
+    def _gauge_row(self, gauge: str) -> FloatArray:
+        gauges = {known.name: known for known in self.problem.gauges}
+        return self.problem.basis.gauge_row(gauges[one_of("gauge", gauge, tuple(gauges))])
+
+    def _mode_index(self, mode: str | int) -> int:
+        modes = len(self.problem.basis.omega2)
+        if not isinstance(mode, int) or not 1 <= mode <= modes:
+            raise InputError(f"must be a mode from 1 to {modes}", key="mode", value=mode)
+        return mode - 1
+
+    def _nodal(self, quantity: str, node: str, dof: str) -> xr.DataArray:
+        return over_time(
+            quantity,
+            self.times,
+            self.sample(quantity, node, dof),
+            units=dof_units(quantity, dof),
+            long_name=f"{quantity} of {node} along {dof}",
+            node=node,
+            dof=dof,
+        )
+
+
+def _along(row: FloatArray, motion: FloatArray) -> FloatArray:
+    # Not BLAS: its order of summation depends on the number of rows, so that the same
+    # instant could give different bits on another grid.
+    values: FloatArray = np.einsum("tn,n->t", motion, row)
+    return values
+
+
+def _checked_times(times: ArrayLike, duration: float) -> FloatArray:
+    """Return instants as an array; those beyond an end by rounding alone are put on it."""
+    try:
+        instants = np.array(times, dtype=np.float64, ndmin=1)
+    except (TypeError, ValueError) as error:
+        raise InputError("must be numbers", key="times", value=times) from error
+    if instants.ndim != 1:
+        raise InputError("must be a list of instants", key="times", value=times)
+    outside = ~((instants >= -ROUNDING * duration) & (instants <= (1.0 + ROUNDING) * duration))
+    if outside.any():
+        what = f"must lie within the simulated time, 0 to {duration:g} s"
+        raise InputError(what, key="times", value=float(instants[outside][0]))
+    instants.clip(0.0, duration, out=instants)
+    instants.flags.writeable = False
+    return instants
+
+
+def _check_target(quantity: str, target: tuple[str | int, ...]) -> None:
+    wanted = QUANTITIES[quantity].target
+    if len(target) == len(wanted) or (wanted == ("mode",) and not target):
+        return
+    what = f"{quantity} is that of a {' and a '.join(wanted)}"
+    raise InputError(what, key="target", value=target)

@@ -1,0 +1,136 @@
+"""simulate: the one way from a problem to a response."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from bumpstop import _core
+from bumpstop.arguments import one_of, positive
+from bumpstop.canonical import CanonicalForm, canonical_form
+from bumpstop.errors import ComputationError, InputError
+from bumpstop.response import Response
+
+if TYPE_CHECKING:
+    from bumpstop.problem import Problem
+
+__all__ = ["METHODS", "simulate"]
+
+FIXED_STEP_METHODS = ("symplectic_euler", "central_difference")
+METHODS = ("auto", "exact", *FIXED_STEP_METHODS)
+MOST_STEPS = 1e9
+
+
+def simulate(
+    problem: Problem,
+    method: str = "auto",
+    *,
+    dt: float | None = None,
+    beyond_stability_limit: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> Response:
+    """Compute how the structure moves.
+
+    Parameters
+    ----------
+    problem
+        What to simulate.
+    method
+        ``"exact"`` solves each phase between two contacts in closed form; ``"auto"`` takes it
+        wherever it applies. ``"symplectic_euler"`` (order 1) and ``"central_difference"``
+        (order 2) march in equal steps.
+    dt
+        Step in s of the fixed-step methods.
+    beyond_stability_limit
+        Allow a step above the method's stability limit.
+    progress
+        Called with the fraction done, between 0 and 1, about ten times a second.
+
+    Returns
+    -------
+    Response
+        The motion, forces, impacts and energies; it can be sampled at any time.
+
+    Raises
+    ------
+    InputError
+        If the method is unknown, a step is missing, refused, out of range or unstable.
+    ComputationError
+        If the computation could not be finished.
+
+    Examples
+    --------
+    A ball falls 1 m onto a spring; the instant of contact is sqrt(2 h / g).
+
+    >>> import bumpstop as bs
+    >>> basis = bs.ModalBasis.from_modes(frequency=[0], damping=[0], shapes={("P", "dz"): [1]})
+    >>> floor = bs.Stop("floor", node="P", normal=(0, 0, 1), gap=1.0, stiffness=1e4)
+    >>> weight = bs.NodalForce("weight", node="P", force=(0, 0, -9.81))
+    >>> problem = bs.Problem(basis, laws=[floor], loads=[weight], duration=1.0)
+    >>> response = bs.simulate(problem)
+    >>> print(f"{response.impact_table()['start'][0]:.12f}")
+    0.451523640986
+    """
+    one_of("method", method, METHODS)
+    chosen, reason = _choose(method)
+    model = _model(problem)
+    step = _checked_step(chosen, dt, problem.duration, model, beyond_stability_limit)
+    try:
+        history = _core.simulate(
+            model.system,
+            model.laws,
+            model.force,
+            model.displacement,
+            model.velocity,
+            problem.duration,
+            chosen,
+            step,
+            beyond_stability_limit,
+            progress,
+        )
+    except _core.CoreError as error:
+        raise ComputationError(f"the {chosen} method could not finish: {error}") from error
+    options = {} if step is None else {"dt": step}
+    return Response(problem, history, times=problem.times, method_reason=reason, options=options)
+
+
+def _choose(method: str) -> tuple[str, str]:
+    if method == "auto":
+        return "exact", "all laws are piecewise linear and all loads constant"
+    return method, "asked for"
+
+
+def _model(problem: Problem) -> CanonicalForm:
+    try:
+        return canonical_form(problem)
+    except _core.CoreError as error:
+        raise InputError(str(error), key="problem") from error
+
+
+def _checked_step(
+    method: str, dt: float | None, duration: float, model: CanonicalForm, beyond_limit: bool
+) -> float | None:
+    if method not in FIXED_STEP_METHODS:
+        if dt is not None:
+            hint = f"leave it out, or choose {' or '.join(FIXED_STEP_METHODS)}"
+            raise InputError(f"the {method} method takes no step", key="dt", value=dt, hint=hint)
+        return None
+    limit = _core.stability_limit(model.system, model.laws, method)
+    if dt is None:
+        hint = f"stable up to {limit:.4g} s"
+        raise InputError(f"the {method} method needs a step in s", key="dt", hint=hint)
+    step = positive("dt", dt)
+    if step > duration:
+        hint = f"the duration is {duration:g} s"
+        raise InputError("must not exceed the duration", key="dt", value=dt, hint=hint)
+    if duration / step > MOST_STEPS:
+        hint = f"take at least {duration / MOST_STEPS:.3g} s"
+        raise InputError(f"makes more than {MOST_STEPS:.0e} steps", key="dt", value=dt, hint=hint)
+    if step > limit and not beyond_limit:
+        raise InputError(
+            f"is above the stability limit of {limit:.6g} s of the {method} method",
+            key="dt",
+            value=dt,
+            hint="take a smaller step, or ask for it with beyond_stability_limit",
+        )
+    return step
