@@ -1,0 +1,63 @@
+"""Null spaces and ranks of small matrices by elimination.
+
+Elimination with complete pivoting keeps unit vectors unit vectors: the rigid motions that
+supports allow come out as plain translations and rotations, without the rounding that an
+orthogonal factorisation would mix in.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray
+
+__all__ = ["independent_columns", "null_space"]
+
+_NEGLIGIBLE = 1e-9
+"""Pivots below this are rounding; matrices must come with entries of order one."""
+
+
+def null_space(matrix: FloatArray) -> FloatArray:
+    """Return a basis of all x with ``matrix @ x = 0``, one vector a column.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> null_space(np.array([[0.0, 1.0, 0.5]]))
+    array([[ 1. ,  0. ],
+           [-0. , -0.5],
+           [ 0. ,  1. ]])
+    """
+    reduced, rows, columns = _eliminated(matrix)
+    size = matrix.shape[1]
+    others = np.setdiff1d(np.arange(size), columns)
+    basis = np.zeros((size, len(others)))
+    basis[others, np.arange(len(others))] = 1.0
+    basis[columns] = -reduced[rows][:, others]
+    return basis
+
+
+def independent_columns(matrix: FloatArray) -> FloatArray:
+    """Return columns of a matrix that span all of them, in their order."""
+    _, _, columns = _eliminated(matrix)
+    return matrix[:, sorted(columns)]
+
+
+def _eliminated(matrix: FloatArray) -> tuple[FloatArray, list[int], list[int]]:
+    """Reduce the pivots' columns to unit vectors; return also the pivots' rows and columns."""
+    reduced = matrix.copy()
+    rows: list[int] = []
+    columns: list[int] = []
+    for _ in range(min(matrix.shape)):
+        candidates = np.abs(reduced)
+        candidates[rows] = 0.0
+        row, column = (int(i) for i in np.unravel_index(candidates.argmax(), matrix.shape))
+        if candidates[row, column] <= _NEGLIGIBLE:
+            break
+        reduced[row] /= reduced[row, column]
+        factors = reduced[:, column].copy()
+        factors[row] = 0.0
+        reduced -= np.outer(factors, reduced[row])
+        rows.append(row)
+        columns.append(column)
+    return reduced, rows, columns

@@ -1,0 +1,11 @@
+"""What vibrates: nodes, beams, masses and supports, and the matrices they make."""
+
+from bumpstop.structure.beam import Beam
+from bumpstop.structure.gauge import Gauge
+from bumpstop.structure.mass import PointMass
+from bumpstop.structure.material import Material
+from bumpstop.structure.section import Rectangle
+from bumpstop.structure.structure import Structure
+from bumpstop.structure.support import Support
+
+__all__ = ["Beam", "Gauge", "Material", "PointMass", "Rectangle", "Structure", "Support"]

@@ -1,0 +1,105 @@
+"""A small sparse matrix, so that assembling needs nothing but NumPy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bumpstop.arguments import FloatArray
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_array
+
+__all__ = ["IndexArray", "SparseMatrix"]
+
+IndexArray: TypeAlias = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class SparseMatrix:
+    """A matrix in compressed sparse columns.
+
+    Parameters
+    ----------
+    shape
+        Numbers of rows and columns.
+    starts
+        Where each column starts in ``rows`` and ``values``, (columns + 1,).
+    rows
+        Row of each entry, ascending within a column.
+    values
+        Value of each entry.
+    """
+
+    shape: tuple[int, int]
+    starts: IndexArray
+    rows: IndexArray
+    values: FloatArray
+
+    @classmethod
+    def from_triplets(
+        cls, shape: tuple[int, int], rows: IndexArray, columns: IndexArray, values: FloatArray
+    ) -> SparseMatrix:
+        """Add up triplets; those of one place are summed in the order given.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> twice, once = np.array([0, 1, 0]), np.array([0, 1, 0])
+        >>> SparseMatrix.from_triplets((2, 2), twice, once, np.array([1.0, 5.0, 2.0])).to_dense()
+        array([[3., 0.],
+               [0., 5.]])
+        """
+        order = np.lexsort((rows, columns))
+        rows, columns, values = rows[order], columns[order], values[order]
+        new = np.ones(len(rows), dtype=bool)
+        new[1:] = (np.diff(rows) != 0) | (np.diff(columns) != 0)
+        first = np.flatnonzero(new)
+        summed = np.add.reduceat(values, first) if len(first) else np.zeros(0)
+        starts = np.searchsorted(columns[first], np.arange(shape[1] + 1))
+        return cls(shape, starts, rows[first], summed)
+
+    @property
+    def columns(self) -> IndexArray:
+        """Column of each entry."""
+        return np.repeat(np.arange(self.shape[1]), np.diff(self.starts))
+
+    def diagonal(self) -> FloatArray:
+        """Return the entries on the diagonal."""
+        on_diagonal = self.rows == self.columns
+        diagonal = np.zeros(min(self.shape))
+        diagonal[self.rows[on_diagonal]] = self.values[on_diagonal]
+        return diagonal
+
+    def restricted(self, kept: IndexArray) -> SparseMatrix:
+        """Return the square matrix of the rows and columns in ``kept``, ascending."""
+        place = np.full(self.shape[0], -1, dtype=np.intp)
+        place[kept] = np.arange(len(kept))
+        rows, columns = place[self.rows], place[self.columns]
+        inside = (rows >= 0) & (columns >= 0)
+        size = len(kept)
+        return SparseMatrix.from_triplets(
+            (size, size), rows[inside], columns[inside], self.values[inside]
+        )
+
+    def to_dense(self) -> FloatArray:
+        """Return the matrix as a NumPy array."""
+        dense = np.zeros(self.shape)
+        dense[self.rows, self.columns] = self.values
+        return dense
+
+    def to_scipy(self) -> csc_array:
+        """Return the matrix as a SciPy sparse array."""
+        from scipy.sparse import csc_array
+
+        return csc_array((self.values, self.rows, self.starts), shape=self.shape)
+
+    def __matmul__(self, field: FloatArray) -> FloatArray:
+        """Return the product with a vector (columns,) or with several, (columns, m)."""
+        product = np.zeros((self.shape[0], *field.shape[1:]))
+        weights = self.values.reshape(-1, *([1] * (field.ndim - 1)))
+        np.add.at(product, self.rows, weights * field[self.columns])
+        return product

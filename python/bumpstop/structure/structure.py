@@ -1,0 +1,238 @@
+"""The structure: parts on named nodes, and the matrices they add up to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, Vector, did_you_mean, one_of
+from bumpstop.errors import InputError
+from bumpstop.structure.assembly import Block, Part, assembled
+from bumpstop.structure.beam import Beam
+from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.forms import LinearForm
+from bumpstop.structure.frame import rigid_motions
+from bumpstop.structure.gauge import Gauge
+from bumpstop.structure.mass import PointMass
+from bumpstop.structure.mesh import Mesh, user_nodes
+from bumpstop.structure.points import beam_point
+from bumpstop.structure.sparse import IndexArray, SparseMatrix
+from bumpstop.structure.support import Support
+
+__all__ = ["Structure"]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Structure:
+    """A linear structure in space.
+
+    Matrices and fields have six rows a mesh node, those of supports included: ``dofs`` names
+    them, ``free`` numbers those that can move.
+
+    Parameters
+    ----------
+    nodes
+        Coordinates (x, y, z) of each named node, in m.
+    beams, masses
+        What stands between and on the nodes.
+    supports
+        Which dofs are held at zero.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown or used twice, a beam has no length, or a node that can move is
+        attached to nothing or has no mass.
+
+    Examples
+    --------
+    >>> from bumpstop import Beam, Material, Rectangle, Structure, Support
+    >>> steel = Material(young_modulus=210e9, poisson_ratio=0.3, density=7800.0)
+    >>> bar = Rectangle(height=0.02, width=0.02)
+    >>> cantilever = Structure(
+    ...     nodes={"A": (0, 0, 0), "B": (1, 0, 0)},
+    ...     beams=[Beam("AB", nodes=("A", "B"), elements=4, material=steel, section=bar)],
+    ...     supports=[Support(nodes="A", fixed=("dx", "dy", "dz", "drx", "dry", "drz"))],
+    ... )
+    >>> cantilever.stiffness.shape, len(cantilever.free)
+    ((30, 30), 24)
+    """
+
+    nodes: Mapping[str, Sequence[float]]
+    beams: Sequence[Beam] = ()
+    masses: Sequence[PointMass] = ()
+    supports: Sequence[Support] = ()
+
+    def __post_init__(self) -> None:
+        for kind, wanted in (("beams", Beam), ("masses", PointMass), ("supports", Support)):
+            object.__setattr__(self, kind, _all_of(kind, wanted, getattr(self, kind)))
+        _refuse_twins("beams", [beam.name for beam in self.beams])
+        _refuse_twins("masses", [mass.name for mass in self.masses])
+        _refuse_twins("nodes", self.mesh.names)
+        self._refuse_loose_nodes()
+        self._refuse_massless_dofs()
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The nodes that the user gave, and then those inside the beams."""
+        mesh = user_nodes(self.nodes)
+        for beam in self.beams:
+            mesh = beam.meshed(mesh)
+        return mesh
+
+    @property
+    def dofs(self) -> tuple[Dof, ...]:
+        """Node and dof of each row."""
+        return self.mesh.dofs
+
+    @cached_property
+    def free(self) -> IndexArray:
+        """Numbers of the dofs that no support holds, ascending."""
+        free = np.ones(len(self.dofs), dtype=bool)
+        for number, support in enumerate(self.supports):
+            free[support.held(self.mesh, f"supports[{number}]")] = False
+        return np.flatnonzero(free)
+
+    @cached_property
+    def stiffness(self) -> SparseMatrix:
+        """Stiffness matrix on all dofs, supports not yet applied; N/m, N and N m."""
+        pieces = ((block.dofs, block.stiffness) for block in self._blocks)
+        return assembled(pieces, len(self.dofs))
+
+    @cached_property
+    def mass(self) -> SparseMatrix:
+        """Consistent mass matrix on all dofs, supports not yet applied; kg, kg m and kg m2."""
+        pieces = ((block.dofs, block.mass) for block in self._blocks)
+        return assembled(pieces, len(self.dofs))
+
+    def displacement_form(self, node: str, dof: str) -> LinearForm:
+        """Return one dof of a node, or of a point along a beam, as a form of all dofs.
+
+        Raises
+        ------
+        InputError
+            If the node, the beam or the dof is unknown, or the point is not on the beam.
+        """
+        one_of("dof", dof, DOFS)
+        point = self._beam_point(node)
+        if point is not None:
+            beam, at = point
+            return beam.displacement_form(self.mesh, at, dof)
+        number = 6 * self.mesh.node(node) + DOFS.index(dof)
+        return LinearForm(np.array([number]), np.ones(1))
+
+    def strain_form(self, gauge: Gauge) -> LinearForm:
+        """Return a gauge's axial strain as a form of all dofs.
+
+        Raises
+        ------
+        InputError
+            If the beam is unknown, or the gauge is not on it.
+        """
+        beam = self._beam(gauge.beam, "beam")
+        beam.require_on(self.mesh, gauge.at, key="at", value=gauge.at)
+        if not beam.section.contains(*gauge.fibre):
+            hint = "y and z are measured from the centroid"
+            raise InputError("is outside the section", key="fibre", value=gauge.fibre, hint=hint)
+        return beam.strain_form(self.mesh, gauge.at, gauge.fibre)
+
+    def position(self, node: str) -> Vector:
+        """Return where a node, or a point along a beam, is at rest, in m.
+
+        Raises
+        ------
+        InputError
+            If the node or the beam is unknown, or the point is not on the beam.
+        """
+        point = self._beam_point(node)
+        if point is not None:
+            beam, at = point
+            return beam.position(self.mesh, at)
+        x, y, z = self.mesh.positions[self.mesh.node(node)]
+        return float(x), float(y), float(z)
+
+    def rigid_field(
+        self,
+        *,
+        translation: Vector = (0.0, 0.0, 0.0),
+        rotation: Vector = (0.0, 0.0, 0.0),
+        about: Vector = (0.0, 0.0, 0.0),
+    ) -> FloatArray:
+        """Return a small rigid motion of the whole structure, one value a dof.
+
+        Parameters
+        ----------
+        translation
+            Along the global axes, in m; or in m/s for a velocity, m/s2 for gravity.
+        rotation
+            About the global axes, in rad (rad/s, rad/s2).
+        about
+            Where the axes of rotation meet, in m.
+        """
+        motions = rigid_motions(self.mesh.positions, np.array(about, dtype=float))
+        field: FloatArray = motions @ np.array([*translation, *rotation], dtype=float)
+        return field
+
+    @cached_property
+    def _blocks(self) -> list[Block]:
+        parts: list[Part] = [*self.beams, *self.masses]
+        return [part.block(self.mesh) for part in parts]
+
+    def _beam_point(self, node: str) -> tuple[Beam, float] | None:
+        """Return the beam and the distance along it that a point's name tells."""
+        point = beam_point(node)
+        if point is None:
+            return None
+        beam = self._beam(point[0], "node")
+        beam.require_on(self.mesh, point[1], key="node", value=node)
+        return beam, point[1]
+
+    def _beam(self, name: str, key: str) -> Beam:
+        for beam in self.beams:
+            if beam.name == name:
+                return beam
+        hint = did_you_mean(name, [beam.name for beam in self.beams])
+        raise InputError("unknown beam", key=key, value=name, hint=hint)
+
+    def _refuse_loose_nodes(self) -> None:
+        """Raise where a node can move that no part is attached to."""
+        attached = np.zeros(len(self.mesh.names), dtype=bool)
+        for block in self._blocks:
+            attached[block.dofs // 6] = True
+        loose = np.setdiff1d(self.free // 6, np.flatnonzero(attached))
+        if len(loose):
+            node = self.mesh.names[loose[0]]
+            hint = "put a beam or a mass on it, or fix all its dofs"
+            raise InputError("the node is attached to nothing", key=f"nodes.{node}", hint=hint)
+
+    def _refuse_massless_dofs(self) -> None:
+        """Raise where a dof can move that has no inertia: its acceleration has no meaning."""
+        massless = self.free[self.mass.diagonal()[self.free] <= 0.0]
+        if len(massless):
+            node = self.dofs[massless[0]][0]
+            dofs = ", ".join(
+                dof for known, dof in (self.dofs[i] for i in massless) if known == node
+            )
+            what, hint = f"{dofs} can move but have no mass", "fix them with a support"
+            raise InputError(what, key=f"nodes.{node}", hint=hint)
+
+
+def _all_of(key: str, wanted: type, value: object) -> tuple[object, ...]:
+    if isinstance(value, str | Mapping) or not isinstance(value, Iterable):
+        raise InputError(f"must be a list of {wanted.__name__}s", key=key, value=value)
+    listed = tuple(value)
+    for item in listed:
+        if not isinstance(item, wanted):
+            raise InputError(f"must hold {wanted.__name__}s only", key=key, value=item)
+    return listed
+
+
+def _refuse_twins(key: str, names: Iterable[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise InputError("this name is used twice", key=key, value=name)
+        seen.add(name)
