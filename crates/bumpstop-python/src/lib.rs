@@ -1,0 +1,35 @@
+//! Python bindings of the core: convert, release the GIL, call, convert back.
+
+mod history;
+mod parts;
+mod simulate;
+
+use bumpstop_core::error::Error;
+use pyo3::exceptions::PyException;
+use pyo3::prelude::*;
+
+pyo3::create_exception!(
+    bumpstop._core,
+    CoreError,
+    PyException,
+    "The core refused its input or could not finish; the message says why."
+);
+
+/// The core's error as a Python exception.
+pub(crate) fn core_error(error: Error) -> PyErr {
+    CoreError::new_err(error.to_string())
+}
+
+/// The compiled core of bumpstop.
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("CoreError", module.py().get_type::<CoreError>())?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<parts::System>()?;
+    module.add_class::<parts::Stop>()?;
+    module.add_class::<history::History>()?;
+    module.add_function(wrap_pyfunction!(parts::symmetric_modes, module)?)?;
+    module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(simulate::stability_limit, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! What can go wrong in the core, with the values a user needs to mend it.
+
+use thiserror::Error;
+
+/// Everything the core refuses or fails at.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Error {
+    /// An array has the wrong length.
+    #[error("{what} has {found} entries instead of {expected}")]
+    Length {
+        /// The array.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it should have.
+        expected: usize,
+    },
+    /// A number is NaN or infinite.
+    #[error("{what} holds a number that is not finite")]
+    NotFinite {
+        /// The array or argument.
+        what: &'static str,
+    },
+    /// A number is negative that cannot be.
+    #[error("{what} must not be negative (got {value})")]
+    Negative {
+        /// The argument.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A number must be positive.
+    #[error("{what} must be positive (got {value})")]
+    NotPositive {
+        /// The argument.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The mass matrix is not positive definite.
+    #[error("the mass matrix is not positive definite: some motion has no mass")]
+    SingularMass,
+    /// More modes were asked for than there are.
+    #[error("{asked} modes were asked for, but the matrices have {available}")]
+    TooManyModes {
+        /// Modes asked for.
+        asked: usize,
+        /// Size of the matrices.
+        available: usize,
+    },
+    /// A fixed step would be unstable.
+    #[error("a step of {dt:e} s is above the stability limit of {method}, {limit:e} s")]
+    Unstable {
+        /// The method.
+        method: &'static str,
+        /// The step asked for, in s.
+        dt: f64,
+        /// The largest stable step, in s.
+        limit: f64,
+    },
+    /// A run would keep more than fits in memory.
+    #[error("{steps} steps of {modes} modes need {gibibytes:.1} GiB of memory; take a larger step or a shorter run")]
+    TooManySteps {
+        /// Number of steps.
+        steps: usize,
+        /// Number of modes.
+        modes: usize,
+        /// Memory that the run would need.
+        gibibytes: f64,
+    },
+    /// The motion left the range of floating-point numbers.
+    #[error("the motion grew beyond all bounds at t = {time:e} s")]
+    Overflow {
+        /// Instant, in s.
+        time: f64,
+    },
+    /// Events follow each other without time advancing.
+    #[error("the laws switch without end at t = {time:e} s")]
+    EndlessSwitching {
+        /// Instant, in s.
+        time: f64,
+    },
+    /// No spectrum of a phase passed its check.
+    #[error("the vibration modes with the laws' present states are too close to defective at t = {time:e} s to be separated (relative error {defect:.1e})")]
+    Defective {
+        /// Instant at which the phase starts, in s.
+        time: f64,
+        /// Largest relative error with which the state is reproduced.
+        defect: f64,
+    },
+    /// A time outside the run was asked for.
+    #[error("t = {time} s lies outside the run, which goes from 0 to {duration} s")]
+    OutsideRun {
+        /// The time asked for, in s.
+        time: f64,
+        /// Length of the run, in s.
+        duration: f64,
+    },
+    /// An eigenvalue iteration failed.
+    #[error("the eigenvalue iteration did not converge")]
+    Eigenvalues,
+    /// The caller asked to stop.
+    #[error("interrupted at t = {time:e} s")]
+    Interrupted {
+        /// Instant reached, in s.
+        time: f64,
+    },
+}
+
+/// Result with the core's error.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Refuses arrays that hold NaN or infinities.
+pub fn check_finite(what: &'static str, values: &[f64]) -> Result<()> {
+    if values.iter().all(|v| v.is_finite()) {
+        Ok(())
+    } else {
+        Err(Error::NotFinite { what })
+    }
+}
+
+/// Refuses an array of the wrong length.
+pub fn check_length(what: &'static str, values: &[f64], expected: usize) -> Result<()> {
+    if values.len() == expected {
+        Ok(())
+    } else {
+        Err(Error::Length {
+            what,
+            found: values.len(),
+            expected,
+        })
+    }
+}

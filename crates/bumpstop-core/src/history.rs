@@ -1,0 +1,362 @@
+//! What a run leaves behind: the motion at any instant, events, impacts and energies.
+
+use crate::energy::{self, Ledger};
+use crate::error::{Error, Result};
+use crate::impacts::Impact;
+use crate::law::{Law, Local, State, project};
+use crate::method::fixed_step::StepRecord;
+use crate::method::piecewise_linear::PhaseRecord;
+use crate::problem::Problem;
+use std::sync::OnceLock;
+
+/// A switch of one law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// Instant, in s.
+    pub time: f64,
+    /// The law, by its number in the problem.
+    pub law: usize,
+    /// The guard that reached zero.
+    pub guard: &'static str,
+    /// State before.
+    pub before: State,
+    /// State after.
+    pub after: State,
+}
+
+/// Time derivative of the modal coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Derivative {
+    /// Displacement.
+    Displacement,
+    /// Velocity.
+    Velocity,
+    /// Acceleration.
+    Acceleration,
+}
+
+#[derive(Debug, Clone)]
+enum Record {
+    Steps(StepRecord),
+    Phases(PhaseRecord),
+}
+
+/// The result of a run. It can be sampled anywhere in `[0, duration]`; at a switch the values
+/// after it are given.
+#[derive(Debug, Clone)]
+pub struct History<L> {
+    problem: Problem<L>,
+    method: &'static str,
+    events: Vec<Event>,
+    record: Record,
+    step_ledgers: OnceLock<Vec<Ledger>>,
+}
+
+impl<L: Law> History<L> {
+    pub(crate) fn of_steps(
+        problem: &Problem<L>,
+        method: &'static str,
+        record: StepRecord,
+        events: Vec<Event>,
+    ) -> Self {
+        Self::new(problem, method, Record::Steps(record), events)
+    }
+
+    pub(crate) fn of_phases(
+        problem: &Problem<L>,
+        method: &'static str,
+        record: PhaseRecord,
+        events: Vec<Event>,
+    ) -> Self {
+        Self::new(problem, method, Record::Phases(record), events)
+    }
+
+    fn new(
+        problem: &Problem<L>,
+        method: &'static str,
+        record: Record,
+        events: Vec<Event>,
+    ) -> Self {
+        Self {
+            problem: problem.clone(),
+            method,
+            events,
+            record,
+            step_ledgers: OnceLock::new(),
+        }
+    }
+
+    /// The problem that was solved.
+    pub fn problem(&self) -> &Problem<L> {
+        &self.problem
+    }
+
+    /// Name of the method.
+    pub fn method(&self) -> &'static str {
+        self.method
+    }
+
+    /// Switches, in order of time.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Time steps, or certified cells of the exact method.
+    pub fn steps(&self) -> usize {
+        match &self.record {
+            Record::Steps(record) => record.steps,
+            Record::Phases(record) => record.cells(),
+        }
+    }
+
+    /// The deepest penetration that the exact method could have missed, in m: its bound on its
+    /// own rounding. `None` for fixed steps, which certify nothing.
+    pub fn missed_penetration(&self) -> Option<f64> {
+        match &self.record {
+            Record::Steps(_) => None,
+            Record::Phases(record) => Some(record.missed_penetration()),
+        }
+    }
+
+    /// Modal displacement and velocity, and the laws' states, at one instant.
+    fn state_at(&self, time: f64, q: &mut [f64], v: &mut [f64], states: &mut Vec<State>) {
+        states.clear();
+        match &self.record {
+            Record::Steps(record) => {
+                record.sample(time, q, v);
+                states.extend(self.problem.laws.iter().map(|law| {
+                    law.sampled_state(&project(law, q), &project(law, v))
+                }));
+            }
+            Record::Phases(record) => {
+                let phase = record.phase_at(time);
+                record.motion(phase, time, q, v);
+                states.extend_from_slice(record.states(phase));
+            }
+        }
+    }
+
+    /// Samples the modal coordinates, rows of `modes` values, one row a time.
+    ///
+    /// # Errors
+    /// When a time lies outside `[0, duration]`.
+    pub fn motion(&self, times: &[f64], derivative: Derivative) -> Result<Vec<f64>> {
+        self.check_times(times)?;
+        let modes = self.problem.system.modes();
+        let mut rows = Vec::with_capacity(times.len() * modes);
+        let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
+        let mut states = Vec::new();
+        for &time in times {
+            self.state_at(time, &mut q, &mut v, &mut states);
+            match derivative {
+                Derivative::Displacement => rows.extend_from_slice(&q),
+                Derivative::Velocity => rows.extend_from_slice(&v),
+                Derivative::Acceleration => rows.extend(self.acceleration(&q, &v, &states)),
+            }
+        }
+        Ok(rows)
+    }
+
+    /// From the equation of motion.
+    fn acceleration(&self, q: &[f64], v: &[f64], states: &[State]) -> Vec<f64> {
+        let mut forces = self.problem.forcing.forces().to_vec();
+        for (law, state) in self.problem.laws.iter().zip(states) {
+            let force = law.force(*state, &project(law, q), &project(law, v));
+            for (row, f) in law.rows().iter().zip(force) {
+                for (total, r) in forces.iter_mut().zip(row) {
+                    *total += r * f;
+                }
+            }
+        }
+        let system = &self.problem.system;
+        let inner = (system.omega2().iter().zip(q)).zip(system.damping().iter().zip(v));
+        for (force, ((w2, q), (c, v))) in forces.iter_mut().zip(inner) {
+            *force -= w2 * q + c * v;
+        }
+        forces
+    }
+
+    /// Distance, its rate and the first component of force of one law at each time.
+    ///
+    /// # Errors
+    /// When a time lies outside `[0, duration]`.
+    pub fn law_motion(&self, law: usize, times: &[f64]) -> Result<[Vec<f64>; 3]> {
+        self.check_times(times)?;
+        let modes = self.problem.system.modes();
+        let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
+        let mut states = Vec::new();
+        let mut columns = [const { Vec::new() }; 3];
+        for &time in times {
+            self.state_at(time, &mut q, &mut v, &mut states);
+            let which = &self.problem.laws[law];
+            let (position, rate) = (project(which, &q), project(which, &v));
+            let (distance, speed) = which.distance(&position, &rate);
+            columns[0].push(distance);
+            columns[1].push(speed);
+            columns[2].push(which.force(states[law], &position, &rate)[0]);
+        }
+        Ok(columns)
+    }
+
+    /// The energy ledger at each time.
+    ///
+    /// # Errors
+    /// When a time lies outside `[0, duration]`.
+    pub fn energy(&self, times: &[f64]) -> Result<Vec<Ledger>> {
+        self.check_times(times)?;
+        Ok(match &self.record {
+            Record::Steps(record) => {
+                let ledgers = self.step_ledgers(record);
+                (times.iter().map(|t| interpolate(ledgers, t / record.dt))).collect()
+            }
+            Record::Phases(record) => {
+                let at = |t: &f64| record.ledger(&self.problem, *t);
+                times.iter().map(at).collect()
+            }
+        })
+    }
+
+    /// Largest imbalance of the ledger at steps or switches, relative to the largest energy.
+    pub fn energy_residual(&self) -> f64 {
+        match &self.record {
+            Record::Steps(record) => energy::residual(self.step_ledgers(record).iter()),
+            Record::Phases(record) => record.energy_residual(&self.problem),
+        }
+    }
+
+    /// Impacts of one law, in order of closing.
+    pub fn impacts(&self, law: usize) -> Vec<Impact> {
+        match &self.record {
+            Record::Steps(record) => {
+                let times: Vec<f64> = (0..=record.steps)
+                    .map(|n| (n as f64 * record.dt).min(self.problem.duration))
+                    .collect();
+                crate::impacts::from_samples(&self.law_samples(law, &times))
+            }
+            Record::Phases(record) => record.impacts(&self.problem, law),
+        }
+    }
+
+    fn law_samples(&self, law: usize, times: &[f64]) -> Vec<crate::impacts::Sample> {
+        let modes = self.problem.system.modes();
+        let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
+        let mut states = Vec::new();
+        let which = &self.problem.laws[law];
+        (times.iter())
+            .map(|&time| {
+                self.state_at(time, &mut q, &mut v, &mut states);
+                let (position, rate) = (project(which, &q), project(which, &v));
+                let (distance, speed) = which.distance(&position, &rate);
+                crate::impacts::Sample {
+                    time,
+                    distance,
+                    speed,
+                    force: which.force(states[law], &position, &rate)[0],
+                    in_contact: which.in_contact(states[law]),
+                }
+            })
+            .collect()
+    }
+
+    fn step_ledgers(&self, record: &StepRecord) -> &[Ledger] {
+        self.step_ledgers
+            .get_or_init(|| step_ledgers(&self.problem, record))
+    }
+
+    fn check_times(&self, times: &[f64]) -> Result<()> {
+        let inside = |t: &f64| *t >= 0.0 && *t <= self.problem.duration;
+        match times.iter().find(|t| !inside(t)) {
+            None => Ok(()),
+            Some(&time) => Err(Error::OutsideRun {
+                time,
+                duration: self.problem.duration,
+            }),
+        }
+    }
+}
+
+/// The ledger at every step; powers are integrated by the trapezoidal rule.
+fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger> {
+    let modes = problem.system.modes();
+    let mut v = vec![0.0; modes];
+    let mut ledgers: Vec<Ledger> = Vec::with_capacity(record.steps + 1);
+    let mut before: Option<Powers> = None;
+    for n in 0..=record.steps {
+        let q = record.displacement(n);
+        record.velocity(n, &mut v);
+        let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, &v);
+        let powers = Powers::new(problem, q, &v);
+        let mut ledger = Ledger {
+            kinetic,
+            elastic,
+            law_stored: powers.stored.clone(),
+            law_dissipated: vec![0.0; problem.laws.len()],
+            load_work: problem.forcing.work(record.displacement(0), q),
+            modal_dissipation: 0.0,
+        };
+        if let (Some(previous), Some(last)) = (&before, ledgers.last()) {
+            let half = 0.5 * record.dt;
+            ledger.modal_dissipation =
+                last.modal_dissipation + half * (previous.modal + powers.modal);
+            for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
+                let lost = problem.laws[i].switch_loss(
+                    previous.states[i],
+                    powers.states[i],
+                    &project(&problem.laws[i], q),
+                );
+                let power = previous.laws[i] + powers.laws[i];
+                *total = last.law_dissipated[i] + half * power + lost;
+            }
+        }
+        before = Some(powers);
+        ledgers.push(ledger);
+    }
+    ledgers
+}
+
+/// Dissipated powers and stored energies at one sampled instant.
+struct Powers {
+    modal: f64,
+    laws: Vec<f64>,
+    stored: Vec<f64>,
+    states: Vec<State>,
+}
+
+impl Powers {
+    fn new<L: Law>(problem: &Problem<L>, q: &[f64], v: &[f64]) -> Self {
+        let locals: Vec<(State, Local<f64>, Local<f64>)> = (problem.laws.iter())
+            .map(|law| {
+                let (position, rate) = (project(law, q), project(law, v));
+                (law.sampled_state(&position, &rate), position, rate)
+            })
+            .collect();
+        let both = || problem.laws.iter().zip(&locals);
+        Self {
+            modal: (problem.system.damping().iter().zip(v))
+                .map(|(c, v)| c * v * v)
+                .sum(),
+            laws: both()
+                .map(|(law, (state, x, v))| law.dissipated_power(*state, x, v))
+                .collect(),
+            stored: both().map(|(law, (s, x, _))| law.stored(*s, x)).collect(),
+            states: locals.iter().map(|(state, ..)| *state).collect(),
+        }
+    }
+}
+
+/// Linear between two ledgers.
+fn interpolate(ledgers: &[Ledger], position: f64) -> Ledger {
+    let n = (position as usize).min(ledgers.len() - 2);
+    let part = position - n as f64;
+    let (a, b) = (&ledgers[n], &ledgers[n + 1]);
+    let mix = |x: f64, y: f64| x + part * (y - x);
+    let each = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| mix(*x, *y)).collect();
+    Ledger {
+        kinetic: mix(a.kinetic, b.kinetic),
+        elastic: mix(a.elastic, b.elastic),
+        law_stored: each(&a.law_stored, &b.law_stored),
+        modal_dissipation: mix(a.modal_dissipation, b.modal_dissipation),
+        law_dissipated: each(&a.law_dissipated, &b.law_dissipated),
+        load_work: mix(a.load_work, b.load_work),
+    }
+}

@@ -1,0 +1,131 @@
+//! Local laws: small automata that act on the structure at a few points.
+//!
+//! A law sees the structure through local coordinates, each a row that projects modal
+//! displacements. In each of its states it says its force, its stored energy, what it
+//! dissipates, and its guards: functions that stay positive while the state lasts. A state may
+//! declare itself piecewise linear by handing over a [`Piece`]; the exact method needs nothing
+//! else.
+
+mod stop;
+
+pub use stop::Stop;
+
+use crate::number::Number;
+
+/// The most local coordinates that a law can have (normal and two tangential ones).
+pub const COORDINATES: usize = 3;
+
+/// Local coordinates or forces; those beyond a law's rows are zero.
+pub type Local<T> = [T; COORDINATES];
+
+/// A state of a law, by its number in the law's own list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct State(pub u8);
+
+/// A linear state: force = constant - stiffness x - damping x', in local coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Force at the origin at rest, in N.
+    pub constant: Local<f64>,
+    /// Stiffness matrix, in N/m.
+    pub stiffness: [Local<f64>; COORDINATES],
+    /// Damping matrix, in N s/m.
+    pub damping: [Local<f64>; COORDINATES],
+}
+
+impl Piece {
+    /// No force at all.
+    pub const FREE: Self = Self {
+        constant: [0.0; COORDINATES],
+        stiffness: [[0.0; COORDINATES]; COORDINATES],
+        damping: [[0.0; COORDINATES]; COORDINATES],
+    };
+
+    /// Whether this state acts on the structure.
+    pub fn acts(&self) -> bool {
+        *self != Self::FREE
+    }
+}
+
+/// A function of the local motion that is positive while a state lasts.
+///
+/// Affine guards are all that piecewise-linear laws need; their derivatives and bounds follow
+/// from those of the local coordinates. Curved guards (circle, friction cone) will be further
+/// variants that hand the same [`crate::method::piecewise_linear::Jet`] to the same walk.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guard {
+    /// Name for the list of events.
+    pub name: &'static str,
+    /// Value at the origin at rest.
+    pub constant: f64,
+    /// Factors of the local coordinates.
+    pub position: Local<f64>,
+    /// Factors of the local velocities.
+    pub velocity: Local<f64>,
+}
+
+/// A local nonlinearity.
+pub trait Law: Clone + Send + Sync {
+    /// The rows that project modal displacements to local coordinates, each of one entry a mode.
+    fn rows(&self) -> &[Vec<f64>];
+
+    /// The name of a state.
+    fn state_name(&self, state: State) -> &'static str;
+
+    /// The state at the start of a run, from the local motion and its derivatives
+    /// (`motion[n]` holds the n-th time derivatives while the law does not act). `zero[n]` are
+    /// the sizes below which they count as zero.
+    fn initial_state(&self, motion: &[Local<f64>; 4], zero: &[f64; 4]) -> State;
+
+    /// The state that a fixed-step scheme sees at one sampled instant.
+    fn sampled_state(&self, position: &Local<f64>, velocity: &Local<f64>) -> State;
+
+    /// Force on the structure in local coordinates, in N.
+    fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>)
+    -> Local<T>;
+
+    /// The state's matrices where it is linear.
+    fn piece(&self, state: State) -> Option<Piece>;
+
+    /// How many guards a state has.
+    fn guard_count(&self, state: State) -> usize;
+
+    /// One of a state's guards.
+    fn guard(&self, state: State, index: usize) -> Guard;
+
+    /// The state that follows when a guard has reached zero.
+    fn next_state(&self, state: State, guard: usize) -> State;
+
+    /// Energy stored, in J.
+    fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T;
+
+    /// Power dissipated, in W.
+    fn dissipated_power<T: Number>(
+        &self,
+        state: State,
+        position: &Local<T>,
+        velocity: &Local<T>,
+    ) -> T;
+
+    /// Energy dissipated at the instant of a switch, in J.
+    fn switch_loss(&self, before: State, after: State, position: &Local<f64>) -> f64;
+
+    /// Distance from the obstacle and its rate, for laws that have one.
+    fn distance<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> (T, T);
+
+    /// Whether a state counts as contact in the table of impacts.
+    fn in_contact(&self, state: State) -> bool;
+
+    /// The stiffest linear state, for the stability limits of explicit schemes.
+    fn stiffest(&self) -> Piece;
+}
+
+/// Projects modal to local coordinates.
+#[inline(always)]
+pub fn project<L: Law>(law: &L, modal: &[f64]) -> Local<f64> {
+    let mut local = [0.0; COORDINATES];
+    for (coordinate, row) in local.iter_mut().zip(law.rows()) {
+        *coordinate = row.iter().zip(modal).map(|(r, q)| r * q).sum();
+    }
+    local
+}

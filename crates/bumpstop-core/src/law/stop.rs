@@ -1,0 +1,218 @@
+//! A unilateral stop: a spring and a damper behind an obstacle.
+//!
+//! With distance d and its rate d', the force is `F = max(0, -k d - c d')` while d < 0 and zero
+//! else: it pushes, never pulls. With a damper the force reaches zero before the gap opens; the
+//! stop is then released, and takes hold again if `-k d - c d'` becomes positive before the gap
+//! has opened. The spring energy left at release is dissipated.
+
+use super::{Guard, Law, Local, Piece, State};
+use crate::error::{Error, Result, check_finite};
+use crate::number::Number;
+use crate::obstacle::Plane;
+
+/// A unilateral spring and damper on a plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stop {
+    rows: [Vec<f64>; 1],
+    obstacle: Plane,
+    stiffness: f64,
+    damping: f64,
+}
+
+impl Stop {
+    /// No contact.
+    pub const OPEN: State = State(0);
+    /// The stop pushes.
+    pub const CLOSED: State = State(1);
+    /// Inside the obstacle, but the damper holds the spring back: no force.
+    pub const RELEASED: State = State(2);
+
+    /// A stop whose distance is `gap + row . q`, with stiffness in N/m and damping in N s/m.
+    ///
+    /// # Errors
+    /// When a number is not finite, the stiffness not positive or the damping negative.
+    pub fn new(row: Vec<f64>, gap: f64, stiffness: f64, damping: f64) -> Result<Self> {
+        check_finite("the stop's row", &row)?;
+        check_finite("the stop's gap", &[gap])?;
+        check_finite("the stop's stiffness", &[stiffness])?;
+        check_finite("the stop's damping", &[damping])?;
+        if stiffness <= 0.0 {
+            return Err(Error::NotPositive {
+                what: "the stop's stiffness",
+                value: stiffness,
+            });
+        }
+        if damping < 0.0 {
+            return Err(Error::Negative {
+                what: "the stop's damping",
+                value: damping,
+            });
+        }
+        Ok(Self {
+            rows: [row],
+            obstacle: Plane { gap },
+            stiffness,
+            damping,
+        })
+    }
+
+    /// `-k d - c d'`, the force before it is cut off at zero.
+    #[inline(always)]
+    fn push<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> T {
+        -(T::of(self.stiffness) * self.obstacle.distance(position)
+            + T::of(self.damping) * self.obstacle.rate(velocity))
+    }
+
+    fn distance_guard(&self, name: &'static str, sign: f64) -> Guard {
+        Guard {
+            name,
+            constant: sign * self.obstacle.gap,
+            position: [sign, 0.0, 0.0],
+            velocity: [0.0; 3],
+        }
+    }
+
+    fn push_guard(&self, name: &'static str, sign: f64) -> Guard {
+        Guard {
+            name,
+            constant: -sign * self.stiffness * self.obstacle.gap,
+            position: [-sign * self.stiffness, 0.0, 0.0],
+            velocity: [-sign * self.damping, 0.0, 0.0],
+        }
+    }
+}
+
+impl Law for Stop {
+    fn rows(&self) -> &[Vec<f64>] {
+        &self.rows
+    }
+
+    fn state_name(&self, state: State) -> &'static str {
+        ["open", "closed", "released"][state.0 as usize]
+    }
+
+    fn initial_state(&self, motion: &[Local<f64>; 4], zero: &[f64; 4]) -> State {
+        let distance = self.obstacle.distance(&motion[0]);
+        let derivatives = [distance, motion[1][0], motion[2][0], motion[3][0]];
+        let decisive = (derivatives.iter().zip(zero)).find(|(value, zero)| value.abs() > **zero);
+        match decisive {
+            Some((value, _)) if *value < 0.0 => {}
+            _ => return Self::OPEN,
+        }
+        if distance < -zero[0] && self.push(&motion[0], &motion[1]) <= 0.0 {
+            Self::RELEASED
+        } else {
+            Self::CLOSED
+        }
+    }
+
+    #[inline(always)]
+    fn sampled_state(&self, position: &Local<f64>, velocity: &Local<f64>) -> State {
+        if self.obstacle.distance(position) > 0.0 {
+            Self::OPEN
+        } else if self.push(position, velocity) >= 0.0 {
+            Self::CLOSED
+        } else {
+            Self::RELEASED
+        }
+    }
+
+    #[inline(always)]
+    fn force<T: Number>(
+        &self,
+        state: State,
+        position: &Local<T>,
+        velocity: &Local<T>,
+    ) -> Local<T> {
+        let zero = T::of(0.0);
+        let normal = if state == Self::CLOSED {
+            self.push(position, velocity)
+        } else {
+            zero
+        };
+        [normal, zero, zero]
+    }
+
+    fn piece(&self, state: State) -> Option<Piece> {
+        let mut piece = Piece::FREE;
+        if state == Self::CLOSED {
+            piece.constant[0] = -self.stiffness * self.obstacle.gap;
+            piece.stiffness[0][0] = self.stiffness;
+            piece.damping[0][0] = self.damping;
+        }
+        Some(piece)
+    }
+
+    fn guard_count(&self, state: State) -> usize {
+        if state == Self::RELEASED { 2 } else { 1 }
+    }
+
+    fn guard(&self, state: State, index: usize) -> Guard {
+        match (state, index) {
+            (Self::OPEN, _) => self.distance_guard("closing", 1.0),
+            (Self::CLOSED, _) if self.damping == 0.0 => self.distance_guard("opening", -1.0),
+            (Self::CLOSED, _) => self.push_guard("release", 1.0),
+            (_, 0) => self.distance_guard("opening", -1.0),
+            _ => self.push_guard("hold", -1.0),
+        }
+    }
+
+    fn next_state(&self, state: State, guard: usize) -> State {
+        match (state, guard) {
+            (Self::OPEN, _) => Self::CLOSED,
+            (Self::CLOSED, _) if self.damping == 0.0 => Self::OPEN,
+            (Self::CLOSED, _) => Self::RELEASED,
+            (_, 0) => Self::OPEN,
+            _ => Self::CLOSED,
+        }
+    }
+
+    #[inline(always)]
+    fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T {
+        if state == Self::CLOSED {
+            let distance = self.obstacle.distance(position);
+            T::of(0.5 * self.stiffness) * distance * distance
+        } else {
+            T::of(0.0)
+        }
+    }
+
+    #[inline(always)]
+    fn dissipated_power<T: Number>(
+        &self,
+        state: State,
+        _position: &Local<T>,
+        velocity: &Local<T>,
+    ) -> T {
+        if state == Self::CLOSED {
+            let rate = self.obstacle.rate(velocity);
+            T::of(self.damping) * rate * rate
+        } else {
+            T::of(0.0)
+        }
+    }
+
+    fn switch_loss(&self, before: State, after: State, position: &Local<f64>) -> f64 {
+        match (before, after) {
+            (Self::CLOSED, Self::RELEASED) => self.stored(before, position),
+            (Self::RELEASED, Self::CLOSED) => -self.stored(after, position),
+            _ => 0.0,
+        }
+    }
+
+    #[inline(always)]
+    fn distance<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> (T, T) {
+        (
+            self.obstacle.distance(position),
+            self.obstacle.rate(velocity),
+        )
+    }
+
+    fn in_contact(&self, state: State) -> bool {
+        state != Self::OPEN
+    }
+
+    fn stiffest(&self) -> Piece {
+        self.piece(Self::CLOSED).unwrap_or(Piece::FREE)
+    }
+}

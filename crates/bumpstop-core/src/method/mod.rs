@@ -1,0 +1,61 @@
+//! Methods: how a problem is carried through time. One file a method.
+
+pub mod central_difference;
+pub mod fixed_step;
+pub mod piecewise_linear;
+pub mod symplectic_euler;
+
+use crate::error::{Error, Result};
+use crate::history::History;
+use crate::law::Law;
+use crate::problem::Problem;
+
+/// A method and its options.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// Closed-form phases between located events; no step.
+    Exact,
+    /// Semi-implicit Euler, first order.
+    SymplecticEuler(fixed_step::Step),
+    /// Central difference, second order.
+    CentralDifference(fixed_step::Step),
+}
+
+impl Method {
+    /// The method's name.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::SymplecticEuler(_) => "symplectic_euler",
+            Self::CentralDifference(_) => "central_difference",
+        }
+    }
+}
+
+/// Is told the time reached now and then; answers whether to go on.
+pub type Observer<'a> = &'a mut dyn FnMut(f64) -> bool;
+
+/// Carries a problem from t = 0 to its duration.
+///
+/// # Errors
+/// See [`Error`]; the observer's refusal gives [`Error::Interrupted`].
+pub fn simulate<L: Law>(
+    problem: &Problem<L>,
+    method: Method,
+    observer: Observer<'_>,
+) -> Result<History<L>> {
+    match method {
+        Method::Exact => piecewise_linear::simulate(problem, observer),
+        Method::SymplecticEuler(step) => symplectic_euler::simulate(problem, step, observer),
+        Method::CentralDifference(step) => central_difference::simulate(problem, step, observer),
+    }
+}
+
+/// Asks the observer; its refusal becomes an error.
+pub(crate) fn observe(observer: &mut dyn FnMut(f64) -> bool, time: f64) -> Result<()> {
+    if observer(time) {
+        Ok(())
+    } else {
+        Err(Error::Interrupted { time })
+    }
+}

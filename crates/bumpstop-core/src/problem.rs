@@ -1,0 +1,63 @@
+//! A problem: structure, laws, forcing, initial state and duration.
+
+use crate::error::{Error, Result, check_finite, check_length};
+use crate::forcing::Forcing;
+use crate::law::Law;
+use crate::system::ModalSystem;
+
+/// All that a method needs.
+#[derive(Debug, Clone)]
+pub struct Problem<L> {
+    /// The linear structure.
+    pub system: ModalSystem,
+    /// Where it is not linear.
+    pub laws: Vec<L>,
+    /// Loads.
+    pub forcing: Forcing,
+    /// Modal displacements at t = 0.
+    pub displacement: Vec<f64>,
+    /// Modal velocities at t = 0.
+    pub velocity: Vec<f64>,
+    /// Length of the run, in s.
+    pub duration: f64,
+}
+
+impl<L: Law> Problem<L> {
+    /// Puts the parts together.
+    ///
+    /// # Errors
+    /// When lengths do not agree, a number is not finite or the duration not positive.
+    pub fn new(
+        system: ModalSystem,
+        laws: Vec<L>,
+        forcing: Forcing,
+        displacement: Vec<f64>,
+        velocity: Vec<f64>,
+        duration: f64,
+    ) -> Result<Self> {
+        let modes = system.modes();
+        check_length("force", forcing.forces(), modes)?;
+        check_length("displacement", &displacement, modes)?;
+        check_length("velocity", &velocity, modes)?;
+        check_finite("displacement", &displacement)?;
+        check_finite("velocity", &velocity)?;
+        check_finite("duration", &[duration])?;
+        if duration <= 0.0 {
+            return Err(Error::NotPositive {
+                what: "duration",
+                value: duration,
+            });
+        }
+        for row in laws.iter().flat_map(Law::rows) {
+            check_length("a law's row", row, modes)?;
+        }
+        Ok(Self {
+            system,
+            laws,
+            forcing,
+            displacement,
+            velocity,
+            duration,
+        })
+    }
+}

@@ -1,0 +1,199 @@
+//! Reading a run.
+
+use crate::core_error;
+use crate::parts::values;
+use bumpstop_core::energy::Ledger;
+use bumpstop_core::error::Result;
+use bumpstop_core::history::{self, Derivative};
+use bumpstop_core::impacts::Impact;
+use bumpstop_core::law::{Law, Stop};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::Mutex;
+use std::time::Instant;
+
+type Column<'py> = Bound<'py, PyArray1<f64>>;
+
+/// What a run leaves behind; it can be sampled anywhere in [0, duration].
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct History {
+    inner: history::History<Stop>,
+    seconds: Mutex<f64>,
+}
+
+impl History {
+    pub(crate) fn new(inner: history::History<Stop>, seconds: f64) -> Self {
+        Self {
+            inner,
+            seconds: Mutex::new(seconds),
+        }
+    }
+
+    /// Reads from the core without the GIL and adds the time that it takes.
+    fn read<T: Send>(
+        &self,
+        py: Python<'_>,
+        reader: impl FnOnce(&history::History<Stop>) -> T + Send,
+    ) -> T {
+        let (value, seconds) = py.detach(|| {
+            let start = Instant::now();
+            let value = reader(&self.inner);
+            (value, start.elapsed().as_secs_f64())
+        });
+        if let Ok(mut total) = self.seconds.lock() {
+            *total += seconds;
+        }
+        value
+    }
+
+    fn check_law(&self, law: usize) -> PyResult<()> {
+        if law < self.inner.problem().laws.len() {
+            Ok(())
+        } else {
+            Err(PyIndexError::new_err(format!("there is no law {law}")))
+        }
+    }
+}
+
+#[pymethods]
+impl History {
+    #[getter]
+    fn method(&self) -> &'static str {
+        self.inner.method()
+    }
+
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.inner.problem().duration
+    }
+
+    #[getter]
+    fn steps(&self) -> usize {
+        self.inner.steps()
+    }
+
+    #[getter]
+    fn event_count(&self) -> usize {
+        self.inner.events().len()
+    }
+
+    #[getter]
+    fn seconds(&self) -> f64 {
+        self.seconds.lock().map_or(f64::NAN, |total| *total)
+    }
+
+    #[getter]
+    fn missed_penetration(&self) -> Option<f64> {
+        self.inner.missed_penetration()
+    }
+
+    fn motion<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<f64>,
+        derivative: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let derivative = match derivative {
+            0 => Derivative::Displacement,
+            1 => Derivative::Velocity,
+            2 => Derivative::Acceleration,
+            _ => return Err(PyValueError::new_err("derivative must be 0, 1 or 2")),
+        };
+        let times = values(&times);
+        let rows = self
+            .read(py, |h| h.motion(&times, derivative))
+            .map_err(core_error)?;
+        let shape = (times.len(), self.inner.problem().system.modes());
+        let array = Array2::from_shape_vec(shape, rows);
+        Ok(array
+            .map_err(|e| PyValueError::new_err(e.to_string()))?
+            .into_pyarray(py))
+    }
+
+    fn law_motion<'py>(
+        &self,
+        py: Python<'py>,
+        law: usize,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<(Column<'py>, Column<'py>, Column<'py>)> {
+        self.check_law(law)?;
+        let times = values(&times);
+        let [distance, rate, force] = self
+            .read(py, |h| h.law_motion(law, &times))
+            .map_err(core_error)?;
+        Ok((
+            distance.into_pyarray(py),
+            rate.into_pyarray(py),
+            force.into_pyarray(py),
+        ))
+    }
+
+    fn energy<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let times = values(&times);
+        let ledgers: Result<Vec<Ledger>> = self.read(py, |h| h.energy(&times));
+        let ledgers = ledgers.map_err(core_error)?;
+        let laws = self.inner.problem().laws.len();
+        let dict = PyDict::new(py);
+        let column = |term: fn(&Ledger) -> f64| -> Column<'py> {
+            ledgers.iter().map(term).collect::<Vec<_>>().into_pyarray(py)
+        };
+        dict.set_item("kinetic", column(|l| l.kinetic))?;
+        dict.set_item("elastic", column(|l| l.elastic))?;
+        dict.set_item("modal_dissipation", column(|l| l.modal_dissipation))?;
+        dict.set_item("load_work", column(|l| l.load_work))?;
+        let table = |term: fn(&Ledger) -> &[f64]| {
+            Array2::from_shape_fn((laws, ledgers.len()), |(law, t)| term(&ledgers[t])[law])
+                .into_pyarray(py)
+        };
+        dict.set_item("law_stored", table(|l| &l.law_stored))?;
+        dict.set_item("law_dissipated", table(|l| &l.law_dissipated))?;
+        Ok(dict)
+    }
+
+    fn energy_residual(&self, py: Python<'_>) -> f64 {
+        self.read(py, history::History::energy_residual)
+    }
+
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let events = self.inner.events();
+        let name = |law: usize, state| self.inner.problem().laws[law].state_name(state);
+        let dict = PyDict::new(py);
+        dict.set_item("time", events.iter().map(|e| e.time).collect::<Vec<_>>())?;
+        dict.set_item("law", events.iter().map(|e| e.law).collect::<Vec<_>>())?;
+        dict.set_item("guard", events.iter().map(|e| e.guard).collect::<Vec<_>>())?;
+        let before: Vec<_> = events.iter().map(|e| name(e.law, e.before)).collect();
+        let after: Vec<_> = events.iter().map(|e| name(e.law, e.after)).collect();
+        dict.set_item("before", before)?;
+        dict.set_item("after", after)?;
+        Ok(dict)
+    }
+
+    fn impacts<'py>(&self, py: Python<'py>, law: usize) -> PyResult<Bound<'py, PyDict>> {
+        self.check_law(law)?;
+        let impacts = self.read(py, |h| h.impacts(law));
+        let dict = PyDict::new(py);
+        let columns: [(&str, fn(&Impact) -> f64); 9] = [
+            ("start", |i| i.start),
+            ("end", |i| i.end),
+            ("closing_speed", |i| i.closing_speed),
+            ("opening_speed", |i| i.opening_speed),
+            ("peak_force", |i| i.peak_force),
+            ("peak_time", |i| i.peak_time),
+            ("impulse", |i| i.impulse),
+            ("energy_absorbed", |i| i.energy_absorbed),
+            ("energy_returned", |i| i.energy_returned),
+        ];
+        for (name, term) in columns {
+            let column: Column<'py> = impacts.iter().map(term).collect::<Vec<_>>().into_pyarray(py);
+            dict.set_item(name, column)?;
+        }
+        Ok(dict)
+    }
+}
