@@ -1,0 +1,54 @@
+"""Case: what a case file says, made of objects that can be simulated."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from bumpstop.post.references import Reference
+from bumpstop.problem import Problem
+
+__all__ = ["Case", "Method"]
+
+
+class Method(NamedTuple):
+    """A method and the options of the fixed-step ones: ``dt`` in s, ``beyond_stability_limit``."""
+
+    name: str
+    options: dict[str, float]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Case:
+    """A problem written in a file, with its variants and what is known of them.
+
+    Parameters
+    ----------
+    name
+        Name of the folder that holds the file.
+    title
+        What the case is, in one line.
+    description
+        More about it.
+    path
+        The file.
+    problems
+        The problem of each variant; a case without variants has one, named ``base``.
+    references
+        The known values of each variant.
+    methods
+        How the time of each variant is integrated.
+    method, method_options
+        The same for the case without its variants.
+    """
+
+    name: str
+    title: str
+    description: str
+    path: Path
+    problems: dict[str, Problem]
+    references: dict[str, list[Reference]]
+    methods: dict[str, Method]
+    method: str
+    method_options: dict[str, float]

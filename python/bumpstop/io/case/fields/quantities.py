@@ -1,0 +1,188 @@
+"""Physical quantities: SI numbers, or strings with a unit. Also pure numbers and counts."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+from bumpstop.errors import InputError
+from bumpstop.io.case.fields.plain import Plain, read_list
+from bumpstop.io.units import Dimension, read_quantity
+
+__all__ = [
+    "Acceleration3",
+    "AngularRate3",
+    "DampingConstant",
+    "Density",
+    "Force3",
+    "Length",
+    "Length2",
+    "Length3",
+    "Mass",
+    "ModalDamping",
+    "Moment3",
+    "Number3",
+    "Numbers",
+    "PoissonRatio",
+    "PositiveLength",
+    "PositiveNumber",
+    "PositiveTime",
+    "Pressure",
+    "Stiffness",
+    "Times",
+    "Written",
+    "WrittenList",
+    "read_number",
+]
+
+_NUMBER = Dimension("a pure number", "", "0.3")
+_LENGTH = Dimension("a length", "m", "14 mm")
+_PRESSURE = Dimension("a pressure", "Pa", "67 GPa")
+_DENSITY = Dimension("a density", "kg/m^3", "7.85 g/cm^3")
+_MASS = Dimension("a mass", "kg", "300 g")
+_STIFFNESS = Dimension("a stiffness", "N/m", "18 kN/m")
+_DAMPING = Dimension("a damping constant", "N*s/m", "20 N*s/m")
+_ACCELERATION = Dimension("an acceleration", "m/s^2", "386 in/s^2")
+_ANGULAR_RATE = Dimension("an angular rate", "rad/s", "30 deg/s")
+_TIME = Dimension("a time", "s", "20 ms")
+_FORCE = Dimension("a force", "N", "5 kN")
+_MOMENT = Dimension("a moment", "N*m", "5 kN*m")
+
+
+def read_number(
+    value: object,
+    dimension: Dimension,
+    *,
+    above: float | None = None,
+    least: float | None = None,
+) -> float:
+    """Return a finite number in SI units.
+
+    Parameters
+    ----------
+    value
+        A number, or a string with a unit.
+    dimension
+        What it measures.
+    above, least
+        It must be greater than ``above`` and not less than ``least``.
+
+    Raises
+    ------
+    InputError
+        If it is something else, has a wrong unit or is out of range.
+
+    Examples
+    --------
+    >>> length = Dimension("a length", "m", "14 mm")
+    >>> read_number("14 mm", length), read_number(3, length)
+    (0.014, 3.0)
+    """
+    number = _finite(value, dimension)
+    if above is not None and number <= above:
+        raise InputError("must be positive" if above == 0 else f"must exceed {above:g}", value=value)
+    if least is not None and number < least:
+        what = "must not be negative" if least == 0 else f"must be at least {least:g}"
+        raise InputError(what, value=value)
+    return number
+
+
+def _finite(value: object, dimension: Dimension) -> float:
+    if isinstance(value, str):
+        return read_quantity(value, dimension)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        unit = dimension.unit
+        wanted = f"must be a number in {unit}" if unit else "must be a number"
+        hint = f"or a string with a unit like {dimension.example!r}" if unit else None
+        raise InputError(wanted, value=value, hint=hint)
+    if not math.isfinite(value):
+        raise InputError("must be finite", value=value)
+    return float(value)
+
+
+def _quantity(
+    dimension: Dimension, above: float | None = None, least: float | None = None
+) -> Plain:
+    """Return a field of one number."""
+
+    def read(value: object) -> float:
+        return read_number(value, dimension, above=above, least=least)
+
+    bounds = {"exclusiveMinimum": above, "minimum": least}
+    number = {"type": "number"} | {key: bound for key, bound in bounds.items() if bound is not None}
+    return Plain(read, {"anyOf": [number, {"type": "string"}], "examples": [dimension.example]})
+
+
+def _vector(dimension: Dimension, length: int = 3) -> Plain:
+    """Return a field of components: three along the global axes, or two in a section."""
+    item = _quantity(dimension)
+
+    def read(value: object) -> tuple[float, ...]:
+        return tuple(read_list(value, item.read, "numbers", length))
+
+    return Plain(read, _array(item, length))
+
+
+def _series(dimension: Dimension, least: float | None = None) -> Plain:
+    """Return a field of one number or more."""
+    item = _quantity(dimension, least=least)
+
+    def read(value: object) -> list[float]:
+        return read_list(value, item.read, "numbers")
+
+    return Plain(read, _array(item))
+
+
+def _array(item: Plain, length: int | None = None) -> dict[str, Any]:
+    bounds = {"minItems": 1} if length is None else {"minItems": length, "maxItems": length}
+    return {"type": "array", "items": item.schema, **bounds}
+
+
+def _one_or_many(dimension: Dimension, least: float) -> Plain:
+    """Return a field that is one number, or a list of them."""
+    one, many = _quantity(dimension, least=least), _series(dimension, least=least)
+
+    def read(value: object) -> float | list[float]:
+        return many.read(value) if isinstance(value, list) else one.read(value)
+
+    return Plain(read, {"anyOf": [*one.schema["anyOf"], many.schema], "examples": [0.01]})
+
+
+def _read_written(value: object) -> float | str:
+    """Keep a number or a string as it is: what it measures is known later."""
+    return value if isinstance(value, str) else read_number(value, _NUMBER)
+
+
+def _read_written_list(value: object) -> list[float | str]:
+    return read_list(value, _read_written, "numbers")
+
+
+Length = Annotated[float, _quantity(_LENGTH)]
+PositiveLength = Annotated[float, _quantity(_LENGTH, above=0)]
+Pressure = Annotated[float, _quantity(_PRESSURE, above=0)]
+Density = Annotated[float, _quantity(_DENSITY, above=0)]
+Mass = Annotated[float, _quantity(_MASS, above=0)]
+Stiffness = Annotated[float, _quantity(_STIFFNESS, above=0)]
+DampingConstant = Annotated[float, _quantity(_DAMPING, least=0)]
+PositiveTime = Annotated[float, _quantity(_TIME, above=0)]
+PositiveNumber = Annotated[float, _quantity(_NUMBER, above=0)]
+PoissonRatio = Annotated[float, _quantity(_NUMBER)]
+ModalDamping = Annotated[float | list[float], _one_or_many(_NUMBER, least=0)]
+
+Length2 = Annotated[tuple[float, float], _vector(_LENGTH, length=2)]
+Length3 = Annotated[tuple[float, float, float], _vector(_LENGTH)]
+Number3 = Annotated[tuple[float, float, float], _vector(_NUMBER)]
+Acceleration3 = Annotated[tuple[float, float, float], _vector(_ACCELERATION)]
+AngularRate3 = Annotated[tuple[float, float, float], _vector(_ANGULAR_RATE)]
+Force3 = Annotated[tuple[float, float, float], _vector(_FORCE)]
+Moment3 = Annotated[tuple[float, float, float], _vector(_MOMENT)]
+
+Times = Annotated[list[float], _series(_TIME, least=0)]
+Numbers = Annotated[list[float], _series(_NUMBER)]
+
+_WRITTEN = {"type": ["number", "string"]}
+Written = Annotated[float | str, Plain(_read_written, _WRITTEN)]
+WrittenList = Annotated[
+    list[float | str],
+    Plain(_read_written_list, {"type": "array", "items": _WRITTEN, "minItems": 1}),
+]

@@ -1,0 +1,59 @@
+"""Where something stands in a case file."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TypeAlias
+
+from bumpstop.errors import InputError
+
+__all__ = ["KeyPath", "dotted", "keyed"]
+
+KeyPath: TypeAlias = tuple[str | int, ...]
+"""Keys of tables and indices of lists, from the top of the file down."""
+
+_INDEX = re.compile(r"\[(\d+)\]")
+_BARE = re.compile(r"[\w-]+")
+
+
+def dotted(path: KeyPath) -> str:
+    """Return a path as it is written in TOML and in variants.
+
+    >>> dotted(("supports", 0, "fixed"))
+    'supports.0.fixed'
+    >>> dotted(("nodes", "a b"))
+    'nodes."a b"'
+    """
+    return ".".join(_part(str(part)) for part in path)
+
+
+def _part(part: str) -> str:
+    return part if _BARE.fullmatch(part) else json.dumps(part, ensure_ascii=False)
+
+
+@contextmanager
+def keyed(table: str = "") -> Iterator[None]:
+    """Turn the argument that a lower layer refused into a key of the file.
+
+    Parameters
+    ----------
+    table
+        The table whose keys the arguments are; empty where errors name their table already.
+
+    Examples
+    --------
+    >>> with keyed("stops.guide"):
+    ...     raise InputError("must be positive", key="stiffness", value=-1.0)
+    Traceback (most recent call last):
+    bumpstop.errors.InputError: stops.guide.stiffness: must be positive (got -1.0)
+    """
+    try:
+        yield
+    except InputError as error:
+        key = ".".join(part for part in (table, error.key) if part)
+        raise InputError(
+            error.what, key=_INDEX.sub(r".\1", key), value=error.value, hint=error.hint
+        ) from error

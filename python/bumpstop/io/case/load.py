@@ -1,0 +1,121 @@
+"""load_case: from a path to a Case."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from bumpstop.errors import InputError
+from bumpstop.io.case.build import Builder
+from bumpstop.io.case.case import Case, Method
+from bumpstop.io.case.document import read_document
+from bumpstop.io.case.keys import dotted
+from bumpstop.io.case.mistakes import first_mistake
+from bumpstop.io.case.overrides import overridden, overridden_paths
+from bumpstop.io.case.references import build_references
+from bumpstop.io.case.tables.case_file import CaseFile
+from bumpstop.problem import Problem
+
+__all__ = ["load_case"]
+
+BASE = "base"
+"""Name of the one problem of a case without variants."""
+
+
+def load_case(path: str | PathLike[str]) -> Case:
+    """Read a case file.
+
+    Parameters
+    ----------
+    path
+        The file, in TOML; ``bumpstop schema`` prints its keys.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or something in it is wrong; the message names the file,
+        the key and the value, and says how to mend it.
+    """
+    file = Path(path)
+    document = read_document(file)
+    try:
+        return _case(file, document)
+    except InputError as error:
+        raise error.located(file=str(file)) from error
+
+
+def _case(file: Path, document: dict[str, Any]) -> Case:
+    base = _checked(document)
+    variants = _variants(document, base)
+    problems = _problems(variants, base)
+    method = _method(base)
+    name = file.absolute().parent.name
+    return Case(
+        name=name,
+        title=base.title or name,
+        description=base.description,
+        path=file,
+        problems=problems,
+        references=build_references(base.references, problems),
+        methods={name: _method(tables) for name, tables in variants.items()},
+        method=method.name,
+        method_options=method.options,
+    )
+
+
+def _method(case: CaseFile) -> Method:
+    options: dict[str, float] = {"beyond_stability_limit": case.run.beyond_stability_limit}
+    return Method(case.run.method, options if case.run.dt is None else {"dt": case.run.dt, **options})
+
+
+def _checked(document: dict[str, Any]) -> CaseFile:
+    try:
+        return CaseFile.model_validate(document)
+    except ValidationError as error:
+        raise first_mistake(error, CaseFile) from error
+
+
+def _variants(document: dict[str, Any], base: CaseFile) -> dict[str, CaseFile]:
+    """Return the tables of each variant; the case alone where there is none."""
+    variants = {}
+    for name, changes in base.variants.items():
+        with _in_variant(name, base):
+            variants[name] = _checked(overridden(document, changes))
+    return variants or {BASE: base}
+
+
+def _problems(variants: dict[str, CaseFile], base: CaseFile) -> dict[str, Problem]:
+    builder = Builder()
+    problems = {}
+    for name, tables in variants.items():
+        with _in_variant(name, base):
+            problems[name] = builder.problem(tables)
+    return problems
+
+
+@contextmanager
+def _in_variant(name: str, base: CaseFile) -> Iterator[None]:
+    """Say in which variant a key is wrong, unless the case without it is wrong as well."""
+    try:
+        yield
+    except InputError as error:
+        if name not in base.variants:
+            raise
+        key = error.key or ""
+        if not _changed(key, base.variants[name]):
+            Builder().problem(base)
+        quoted = key if key.startswith('"') else f'"{key}"'
+        raise InputError(
+            error.what, key=f"variants.{name}.{quoted}", value=error.value, hint=error.hint
+        ) from error
+
+
+def _changed(key: str, changes: dict[str, Any]) -> bool:
+    """Tell whether a variant names this key."""
+    paths = [dotted(path) for path in overridden_paths(changes)]
+    return key.startswith('"') or any(f"{key}.".startswith(f"{path}.") for path in paths)

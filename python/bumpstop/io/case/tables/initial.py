@@ -1,0 +1,30 @@
+"""``[initial]``."""
+
+from pydantic import Field
+
+from bumpstop.io.case.fields.quantities import AngularRate3, Numbers
+from bumpstop.io.case.fields.words import Node
+from bumpstop.io.case.tables.table import Table
+
+__all__ = ["InitialTable", "ModalStateTable", "RotationTable"]
+
+
+class RotationTable(Table):
+    """The whole structure turns about a node, undeformed."""
+
+    about: Node = Field(description="The node that stays in place")
+    rate: AngularRate3 = Field(description="Rotation vector about X, Y, Z, in rad/s")
+
+
+class ModalStateTable(Table):
+    """Displacement and velocity of each mode (unit modal mass); zero where left out."""
+
+    displacement: Numbers | None = Field(default=None, description="One a mode, in m kg^0.5")
+    velocity: Numbers | None = Field(default=None, description="One a mode, in m kg^0.5/s")
+
+
+class InitialTable(Table):
+    """How the structure moves at t = 0; at rest and undeformed where left out."""
+
+    rotation: RotationTable | None = Field(default=None, description="A rigid rotation")
+    modal: ModalStateTable | None = Field(default=None, description="A state given mode by mode")

@@ -1,0 +1,32 @@
+"""``[run]``."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from bumpstop.io.case.fields.counts import Switch
+from bumpstop.io.case.fields.quantities import PositiveTime
+from bumpstop.io.case.fields.words import choice
+from bumpstop.io.case.tables.table import Table
+from bumpstop.simulate import METHODS
+
+__all__ = ["RunTable"]
+
+
+class RunTable(Table):
+    """For how long to simulate, and how."""
+
+    duration: PositiveTime = Field(description="Time to simulate, in s")
+    method: Annotated[str, choice(*METHODS)] = Field(
+        default="auto", description="How time is integrated"
+    )
+    dt: PositiveTime | None = Field(
+        default=None, description="Step of the fixed-step methods, in s; the others do not use it"
+    )
+    beyond_stability_limit: Switch = Field(
+        default=False, description="Allow a step above the stability limit of a fixed-step method"
+    )
+    sample: PositiveTime | None = Field(
+        default=None,
+        description="Interval of the tabulated results, in s; it does not affect the solution",
+    )
