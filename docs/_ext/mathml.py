@@ -1,0 +1,34 @@
+"""Show mathematics as MathML: no script, no download, readable offline.
+
+docutils converts the LaTeX; every current browser draws the result.
+"""
+
+from docutils import nodes
+from docutils.utils.math import latex2mathml
+from sphinx.application import Sphinx
+from sphinx.util.typing import ExtensionMetadata
+from sphinx.writers.html5 import HTML5Translator
+
+
+def visit_inline(translator: HTML5Translator, node: nodes.math) -> None:
+    """Write a formula in running text."""
+    translator.body.append(latex2mathml.tex2mathml(node.astext()))
+    raise nodes.SkipNode
+
+
+def visit_display(translator: HTML5Translator, node: nodes.math_block) -> None:
+    """Write a displayed formula, with its number where it has a label."""
+    translator.body.append(translator.starttag(node, "div", CLASS="math"))
+    if number := node.get("number"):
+        translator.body.append(f'<span class="eqno">({number})</span>')
+    # amsmath blocks bring an outer environment that only matters to a LaTeX document.
+    source = node.astext().replace("{align*}", "{aligned}").replace("{equation*}", "{aligned}")
+    translator.body.append(latex2mathml.tex2mathml(source, as_block=True))
+    translator.body.append("</div>\n")
+    raise nodes.SkipNode
+
+
+def setup(app: Sphinx) -> ExtensionMetadata:
+    """Register the renderer as ``html_math_renderer = "mathml"``."""
+    app.add_html_math_renderer("mathml", (visit_inline, None), (visit_display, None))
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,56 @@
+"""How Sphinx builds the documentation; its own small extensions are in ``_ext``."""
+
+import os
+import sys
+from importlib.metadata import version as version_of
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "_ext"))
+
+# The pages that run `bumpstop` must find the one that belongs to this Python.
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+os.environ["COLUMNS"] = "96"
+os.environ["NO_COLOR"] = "1"
+os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
+
+project = "bumpstop"
+author = "The bumpstop developers"
+project_copyright = f"2026, {author}"
+release = version = version_of("bumpstop")
+
+extensions = [
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "myst_nb",
+    "mathml",
+    "cases",
+    "case_file",
+    "public_names",
+]
+exclude_patterns = ["_build", "_ext"]
+
+html_theme = "furo"
+html_title = "bumpstop"
+html_static_path = ["_static"]
+html_css_files = ["bumpstop.css"]
+html_math_renderer = "mathml"
+html_copy_source = False
+html_show_sourcelink = False
+
+myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
+myst_heading_anchors = 3
+
+# Examples run anew at every build: what a page shows is what this version computes.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
+nb_execution_show_tb = True
+
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+python_maximum_signature_line_length = 88
+python_use_unqualified_type_names = True
