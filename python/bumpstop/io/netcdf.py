@@ -1,0 +1,217 @@
+"""NetCDF: a response in a file that xarray, ParaView, MATLAB and the like can open."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bumpstop.files import written_whole
+from bumpstop.io.netcdf_format import Variable, write_file
+from bumpstop.post.energy import stop_energies
+from bumpstop.projection import TRANSLATIONS
+from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, STOP_ENERGIES, dof_units
+from bumpstop.structure.dofs import DOFS, Dof
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import NDArray
+
+    from bumpstop.response import Response
+    from bumpstop.structure.structure import Structure
+
+__all__ = ["write_netcdf"]
+
+TIME = {"units": "s", "long_name": "time"}
+
+
+def write_netcdf(
+    response: Response,
+    path: str | PathLike[str],
+    *,
+    title: str | None = None,
+    case: str | None = None,
+    variant: str | None = None,
+) -> None:
+    """Write a response, tabulated at its times, to a NetCDF-4 file.
+
+    Over ``time`` the file holds the modal motion, forces and gaps of the stops, strains of
+    the gauges, displacements of all mesh nodes along the axes that are free (where the basis
+    knows its structure), motions of the problem's outputs and of the nodes at the stops, and
+    the energy ledger; and beside them tables of impacts and of events. Names, units and
+    attributes follow the CF conventions, version 1.11; attributes of the file say what made
+    it and how.
+
+    Parameters
+    ----------
+    response
+        What to write.
+    path
+        The file; one of that name is replaced once the new one is complete.
+    title, case, variant
+        Where the problem comes from.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written there.
+    """
+    attributes = {"title": title, "case": case, "variant": variant} | _provenance(response)
+    told = {name: value for name, value in attributes.items() if value is not None}
+    with written_whole(path) as part:
+        write_file(part, _variables(response), told)
+
+
+def _variables(response: Response) -> Iterator[Variable]:
+    yield Variable("time", ("time",), response.times, TIME)
+    yield from _modes(response)
+    yield from _stops(response)
+    yield from _gauges(response)
+    yield from _outputs(response)
+    if response.problem.basis.structure is not None:
+        yield from _nodes(response, response.problem.basis.structure)
+    yield from _energies(response)
+    yield from _impacts(response)
+    yield from _events(response)
+
+
+def _modes(response: Response) -> Iterator[Variable]:
+    basis = response.problem.basis
+    numbers = np.arange(1, len(basis.omega2) + 1)
+    hertz = {"units": "Hz", "long_name": "natural frequency"}
+    ratio = {"units": "1", "long_name": "ratio of critical damping"}
+    yield Variable("mode", ("mode",), numbers, {"long_name": "number of the mode"})
+    yield Variable("frequency", ("mode",), basis.frequencies, hertz)
+    yield Variable("damping_ratio", ("mode",), basis.damping_ratio, ratio)
+    for derivative, name in enumerate(("modal_displacement", "modal_velocity")):
+        values = response.motion(derivative)
+        yield Variable(name, ("time", "mode"), values, QUANTITIES[name].attributes)
+
+
+def _stops(response: Response) -> Iterator[Variable]:
+    stops = [law.name for law in response.problem.laws]
+    if not stops:
+        return
+    yield Variable("stop", ("stop",), _texts(stops), {"long_name": "name of the stop"})
+    for name in ("stop_force", "gap"):
+        values = np.stack([response.sample(name, stop) for stop in stops], axis=1)
+        yield Variable(name, ("time", "stop"), values, QUANTITIES[name].attributes)
+
+
+def _gauges(response: Response) -> Iterator[Variable]:
+    gauges = [gauge.name for gauge in response.problem.gauges]
+    if not gauges:
+        return
+    strains = np.stack([response.sample("gauge", gauge) for gauge in gauges], axis=1)
+    yield Variable("gauge", ("gauge",), _texts(gauges), {"long_name": "name of the gauge"})
+    yield Variable("strain", ("time", "gauge"), strains, QUANTITIES["gauge"].attributes)
+
+
+def _outputs(response: Response) -> Iterator[Variable]:
+    """Give motions of the outputs and of the nodes at the stops, a variable each."""
+    for node, dof in dict.fromkeys([*response.problem.outputs, *_stopped(response)]):
+        for quantity in ("displacement", "velocity", "acceleration"):
+            attributes = {
+                "units": dof_units(quantity, dof),
+                "long_name": f"{quantity} of {node} along {dof}",
+                "node": node,
+                "dof": dof,
+            }
+            values = response.sample(quantity, node, dof)
+            yield Variable(_plain(f"{quantity}_{node}_{dof}"), ("time",), values, attributes)
+
+
+def _stopped(response: Response) -> list[Dof]:
+    """Return the dofs along which the stops push."""
+    return [
+        (law.node, dof)
+        for law in response.problem.laws
+        for dof, component in zip(TRANSLATIONS, law.normal, strict=True)
+        if component != 0.0
+    ]
+
+
+def _plain(name: str) -> str:
+    """Return a name of letters, digits and underscores, as the CF conventions want them.
+
+    >>> _plain("displacement_AB@0.462_dy")
+    'displacement_AB_0_462_dy'
+    """
+    return re.sub(r"\W", "_", name, flags=re.ASCII)
+
+
+def _nodes(response: Response, structure: Structure) -> Iterator[Variable]:
+    nodes = structure.mesh.names
+    yield Variable("node", ("node",), _texts(nodes), {"long_name": "name of the node"})
+    for axis, values in zip("xyz", structure.mesh.positions.T, strict=True):
+        long_name = f"{axis} of the node at rest"
+        yield Variable(axis, ("node",), values, {"units": "m", "long_name": long_name})
+    dofs = [dof for dof in TRANSLATIONS if (structure.free % 6 == DOFS.index(dof)).any()]
+    if not dofs:
+        return
+    rows = np.arange(len(nodes))[:, np.newaxis] * 6 + [DOFS.index(dof) for dof in dofs]
+    displacement = response.motion(0) @ response.problem.basis.shapes[rows.ravel()].T
+    table = displacement.reshape(-1, *rows.shape)
+    attributes = QUANTITIES["displacement"].attributes | {"coordinates": "x y z"}
+    yield Variable("dof", ("dof",), _texts(dofs), {"long_name": "degree of freedom"})
+    yield Variable("displacement", ("time", "node", "dof"), table, attributes)
+
+
+def _energies(response: Response) -> Iterator[Variable]:
+    for name, values in response.energy_terms().items():
+        yield Variable(f"energy_{name}", ("time",), values, ENERGIES[name].attributes)
+    if response.problem.laws:
+        for name, values in stop_energies(response, response.times).items():
+            attributes = STOP_ENERGIES[name].attributes
+            yield Variable(f"energy_{name}", ("time", "stop"), values, attributes)
+
+
+def _impacts(response: Response) -> Iterator[Variable]:
+    table = response.impact_table()
+    along = ("impact",)
+    yield Variable("impact_stop", along, _texts(table["stop"]), {"long_name": "name of the stop"})
+    for name, quantity in IMPACTS.items():
+        values = np.array(table[name], dtype=float)
+        yield Variable(f"impact_{name}", along, values, quantity.attributes)
+
+
+def _events(response: Response) -> Iterator[Variable]:
+    words = {
+        "law": "law that switched",
+        "guard": "what made it switch",
+        "before": "its state before",
+        "after": "its state after",
+    }
+    table = response.event_table()
+    instant = {"units": "s", "long_name": "instant of the switch"}
+    yield Variable("event_time", ("event",), np.array(table["time"], dtype=float), instant)
+    for name, meaning in words.items():
+        yield Variable(f"event_{name}", ("event",), _texts(table[name]), {"long_name": meaning})
+
+
+def _texts(texts: Iterable[object]) -> NDArray[Any]:
+    return np.array(list(texts), dtype=object)
+
+
+def _provenance(response: Response) -> dict[str, Any]:
+    from bumpstop import __version__
+
+    now = datetime.now(UTC).isoformat(timespec="seconds")
+    return {
+        "Conventions": "CF-1.11",
+        "source": f"bumpstop {__version__}",
+        "history": f"{now} written by bumpstop {__version__}",
+        "date_created": now,
+        "bumpstop_version": __version__,
+        "method": response.method,
+        "method_reason": response.method_reason,
+        **{f"method_{option}": value for option, value in response.options.items()},
+        "steps": response.steps,
+        "event_count": response.event_count,
+        "energy_residual": response.energy_residual,
+        "solve_seconds": response.solve_seconds,
+    }
