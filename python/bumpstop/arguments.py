@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from numbers import Integral, Real
-from typing import TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,19 +15,23 @@ from bumpstop.errors import InputError
 __all__ = [
     "FloatArray",
     "Vector",
+    "all_of",
     "count",
     "did_you_mean",
     "finite",
+    "listed",
     "name",
     "not_negative",
     "one_of",
     "pair",
     "positive",
+    "refuse_twins",
     "series",
     "vector",
 ]
 
 FloatArray: TypeAlias = NDArray[np.float64]
+T = TypeVar("T")
 Vector: TypeAlias = tuple[float, float, float]
 
 
@@ -101,6 +105,31 @@ def pair(key: str, value: object) -> tuple[float, float]:
 def series(key: str, value: object) -> tuple[float, ...]:
     """Return finite numbers, at least one."""
     return _numbers(key, value)
+
+
+def all_of(key: str, kind: type[T], value: object) -> tuple[T, ...]:
+    """Return the members of a list, all of one kind."""
+    members = listed(key, value)
+    for member in members:
+        if not isinstance(member, kind):
+            raise InputError(f"must hold {kind.__name__}s only", key=key, value=member)
+    return members
+
+
+def listed(key: str, value: object) -> tuple[Any, ...]:
+    """Return the members of a list or tuple."""
+    if not isinstance(value, list | tuple):
+        raise InputError("must be a list", key=key, value=value)
+    return tuple(value)
+
+
+def refuse_twins(key: str, names: Iterable[str]) -> None:
+    """Raise where a name is used twice."""
+    seen: set[str] = set()
+    for used in names:
+        if used in seen:
+            raise InputError("this name is used twice", key=key, value=used)
+        seen.add(used)
 
 
 def did_you_mean(word: object, known: Iterable[str]) -> str:

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, field
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, positive
+from bumpstop.arguments import FloatArray, all_of, listed, name, positive, refuse_twins
 from bumpstop.errors import InputError
 from bumpstop.laws import Stop
+from bumpstop.structure.gauge import Gauge
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
-    from bumpstop.structure.gauge import Gauge
 
 __all__ = ["InitialState", "Load", "Problem"]
 
@@ -43,6 +42,9 @@ class InitialState(Protocol):
 
     def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
         """Return modal displacement and velocity, each (N,)."""
+
+
+PARTS: dict[str, type[Stop | Load | Gauge]] = {"laws": Stop, "loads": Load, "gauges": Gauge}
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +91,7 @@ class Problem:
     0.001
     """
 
-    basis: ModalBasis
+    basis: ModalBasis = field(repr=False)
     _: KW_ONLY
     laws: Sequence[Stop] = ()
     loads: Sequence[Load] = ()
@@ -100,13 +102,16 @@ class Problem:
     outputs: Sequence[tuple[str, str]] = ()
 
     def __post_init__(self) -> None:
-        for key, kind in (("laws", Stop), ("loads", Load), ("gauges", object), ("outputs", tuple)):
-            object.__setattr__(self, key, _listed(key, getattr(self, key), kind))
+        for key, kind in PARTS.items():
+            parts = all_of(key, kind, getattr(self, key))
+            refuse_twins(key, [part.name for part in parts])
+            object.__setattr__(self, key, parts)
+        outputs = tuple(_pair("outputs", pair) for pair in listed("outputs", self.outputs))
+        object.__setattr__(self, "outputs", outputs)
         object.__setattr__(self, "duration", positive("duration", self.duration))
         if self.sample is not None:
             object.__setattr__(self, "sample", positive("sample", self.sample))
         self._check_sample()
-        self._check_names()
         self._check_targets()
 
     @property
@@ -140,13 +145,6 @@ class Problem:
                 "the solution itself does not depend on it",
             )
 
-    def _check_names(self) -> None:
-        for key in ("laws", "loads", "gauges"):
-            names = Counter(part.name for part in getattr(self, key))
-            twice = [name for name, times in names.items() if times > 1]
-            if twice:
-                raise InputError("names must differ", key=key, value=twice[0])
-
     def _check_targets(self) -> None:
         for law in self.laws:
             with _at(f"{law.table}.{law.name}"):
@@ -155,8 +153,7 @@ class Problem:
             with _at(f"loads.{load.name}"):
                 load.modal_force(self.basis)
         for gauge in self.gauges:
-            with _at(f"gauges.{gauge.name}"):
-                self.basis.gauge_row(gauge)
+            self.basis.gauge_row(gauge)
         for node, dof in self.outputs:
             with _at("outputs"):
                 self.basis.row(node, dof)
@@ -165,13 +162,10 @@ class Problem:
                 self.initial.modal_state(self.basis)
 
 
-def _listed(key: str, parts: object, kind: type) -> tuple[object, ...]:
-    if not isinstance(parts, list | tuple):
-        raise InputError("must be a list", key=key, value=parts)
-    for part in parts:
-        if not isinstance(part, kind):
-            raise InputError(f"must hold {kind.__name__}s", key=key, value=part)
-    return tuple(parts)
+def _pair(key: str, value: object) -> tuple[str, str]:
+    if not isinstance(value, list | tuple) or len(value) != 2:
+        raise InputError("must hold pairs of a node and a dof", key=key, value=value)
+    return name(key, value[0]), name(key, value[1])
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.structure import Structure
 
 __all__ = ["ModalState", "RigidRotation"]
 
@@ -106,13 +107,19 @@ class RigidRotation:
         if basis.structure is None:
             hint = "give a ModalState, or make the basis from a structure"
             raise InputError("needs a structure to turn", key="about", value=self.about, hint=hint)
-        centre = basis.structure.position(self.about)
-        velocity = basis.project_field(
-            basis.structure.rigid_field(rotation=self.rate, about=centre)
-        )
+        centre = _position(basis.structure, self.about)
+        field = basis.structure.rigid_field(rotation=self.rate, about=centre)
+        velocity = basis.project_field(field)
         if any(self.rate) and not velocity.any():
             raise InputError("no mode takes part in this rotation", key="rate", value=self.rate)
         return np.zeros(len(velocity)), velocity
+
+
+def _position(structure: Structure, about: str) -> Vector:
+    try:
+        return structure.position(about)
+    except InputError as error:
+        raise InputError(error.what, key="about", value=about, hint=error.hint) from error
 
 
 def _one_a_mode(key: str, values: Sequence[float] | FloatArray | None, modes: int) -> FloatArray:
