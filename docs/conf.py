@@ -2,8 +2,9 @@
 
 import os
 import sys
-from importlib.metadata import version as version_of
 from pathlib import Path
+
+import bumpstop
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
@@ -17,7 +18,7 @@ os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
 project = "bumpstop"
 author = "The bumpstop developers"
 project_copyright = f"2026, {author}"
-release = version = version_of("bumpstop")
+release = version = bumpstop.__version__
 
 extensions = [
     "sphinx.ext.autodoc",
@@ -49,8 +50,12 @@ nb_execution_show_tb = True
 
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+napoleon_attr_annotations = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
+autodoc_type_aliases = {
+    name: name for name in ("ArrayLike", "Dof", "FloatArray", "IndexArray", "Table", "Vector")
+}
 python_maximum_signature_line_length = 88
 python_use_unqualified_type_names = True

@@ -26,82 +26,98 @@ class Reference:
     """The schema as Markdown."""
 
     def __init__(self, schema: Schema) -> None:
+        self.definitions = schema["$defs"]
         self.schema = schema
 
     def sections(self) -> Iterator[str]:
         """Describe the keys at the top of the file, then each table."""
-        top = {key: field for key, field in self._fields(self.schema) if not self._table(field)}
-        yield from self._section("At the top", "", top, self.schema)
-        for key, field in self._fields(self.schema):
-            if key not in top:
-                yield from self._table_section(key, field)
-
-    def _table_section(self, path: str, field: Schema) -> Iterator[str]:
-        table = self._table(field)
-        assert table is not None
-        named, listed = "additionalProperties" in field, field.get("type") == "array"
-        path = f"{path}.NAME" if named else path
-        title = f"`[[{path}]]`" if listed else f"`[{path}]`"
-        fields = dict(self._fields(table))
-        inner = {key: field for key, field in fields.items() if self._table(field)}
-        plain = {key: field for key, field in fields.items() if key not in inner}
-        yield from self._section(title, table.get("description", ""), plain, table)
-        for key, field in inner.items():
-            yield from self._table_section(f"{path}.{key}", field)
-
-    def _section(
-        self, title: str, text: str, fields: dict[str, Schema], table: Schema
-    ) -> Iterator[str]:
-        yield f"\n### {title}\n\n{text}\n"
-        if fields:
-            yield "| key | value | default | |\n|---|---|---|---|"
+        fields = self.schema["properties"]
+        plain = {key: field for key, field in fields.items() if not _holds_tables(field)}
+        yield from _section("At the top", "", plain, self.schema)
         for key, field in fields.items():
-            default = "*required*" if key in table.get("required", ()) else _default(field)
-            yield f"| `{key}` | {self._value(field)} | {default} | {field.get('description', '')} |"
+            if key not in plain:
+                yield from self._tables(key, field)
 
-    def _fields(self, table: Schema) -> Iterator[tuple[str, Schema]]:
-        yield from table.get("properties", {}).items()
+    def _tables(self, path: str, field: Schema) -> Iterator[str]:
+        """Describe what stands under one key: a table, tables by name, or a list of tables."""
+        title = f"[[{path}]]" if field.get("type") == "array" else f"[{path}]"
+        named = _named(field)
+        if named is not None and not _references(named):
+            yield from _section(f"`{title}`", field.get("description", ""), {"NAME": named}, {})
+            return
+        if named is not None:
+            title = f"[{path}.NAME]"
+        for reference in _references(field):
+            table = self.definitions[reference.rpartition("/")[2]]
+            yield from self._table(title, path, table)
 
-    def _table(self, field: Schema) -> Schema | None:
-        """Return the table that a field holds, alone, by name or in a list; None for a value."""
-        for inner in [field, *field.get("anyOf", []), field.get("items"), _values(field)]:
-            if isinstance(inner, dict) and "$ref" in inner:
-                found: Schema = self.schema["$defs"][inner["$ref"].rpartition("/")[2]]
-                return found if "properties" in found else None
-        return None
-
-    def _value(self, field: Schema) -> str:
-        if "enum" in field:
-            return " or ".join(f'`"{word}"`' for word in field["enum"])
-        if "const" in field:
-            return f'`"{field["const"]}"`'
-        if "anyOf" in field:
-            kinds = [self._value(kind) for kind in field["anyOf"] if kind.get("type") != "null"]
-            return _with_example(" or ".join(dict.fromkeys(kinds)), field)
-        if field.get("type") == "array":
-            length = field.get("minItems")
-            count = f"{length} " if length == field.get("maxItems") and length else ""
-            return f"list of {count}({self._value(field.get('items', {}))})"
-        if field.get("type") == "object":
-            return "table"
-        kind = field.get("type", "any")
-        return _with_example(" or ".join(kind) if isinstance(kind, list) else kind, field)
+    def _table(self, title: str, path: str, table: Schema) -> Iterator[str]:
+        fields = table["properties"]
+        kind = fields.get("type", {}).get("const")
+        heading = f'`{title}` with `type = "{kind}"`' if kind else f"`{title}`"
+        plain = {key: field for key, field in fields.items() if not _holds_tables(field)}
+        yield from _section(heading, table.get("description", ""), plain, table)
+        for key, field in fields.items():
+            if key not in plain:
+                yield from self._tables(f"{path}.{key}", field)
 
 
-def _values(field: Schema) -> Schema | None:
-    values = field.get("additionalProperties")
-    return values if isinstance(values, dict) else None
+def _section(title: str, text: str, fields: dict[str, Schema], table: Schema) -> Iterator[str]:
+    yield f"\n### {title}\n\n{text}\n"
+    if fields:
+        yield "| key | value | default | |\n|---|---|---|---|"
+    for key, field in fields.items():
+        default = "*required*" if key in table.get("required", ()) else _default(field)
+        yield f"| `{key}` | {_value(field)} | {default} | {field.get('description', '')} |"
 
 
-def _with_example(text: str, field: Schema) -> str:
-    examples = ", ".join(f'`"{example}"`' for example in field.get("examples", []))
-    return f"{text}, such as {examples}" if examples else text
+def _named(field: Schema) -> Schema | None:
+    """Return what stands under the names of a table whose keys the user chooses."""
+    patterns = list(field.get("patternProperties", {}).values())
+    return patterns[0] if patterns else None
+
+
+def _holds_tables(field: Schema) -> bool:
+    return _named(field) is not None or bool(_references(field))
+
+
+def _references(field: Schema) -> list[str]:
+    """Return the names of the tables that a field holds, alone, by name or in a list."""
+    inner = [field, *field.get("anyOf", []), *field.get("oneOf", []), field.get("items", {})]
+    found = [part["$ref"] for part in inner if "$ref" in part]
+    named = _named(field)
+    return found + (_references(named) if named else [])
+
+
+def _value(field: Schema) -> str:
+    """Say in words what may be written."""
+    if "enum" in field:
+        return " or ".join(f'`"{word}"`' for word in field["enum"])
+    if "const" in field:
+        return f'`"{field["const"]}"`'
+    if "anyOf" in field:
+        kinds = [_value(kind) for kind in field["anyOf"] if kind.get("type") != "null"]
+        return _with_examples(" or ".join(dict.fromkeys(kinds)), field)
+    kind = field.get("type", "any")
+    if kind == "array":
+        count = field.get("minItems")
+        some = f"{count} " if count and count == field.get("maxItems") else ""
+        return f"list of {some}({_value(field.get('items', {}))})"
+    if kind == "object":
+        return "table"
+    return _with_examples(" or ".join(kind) if isinstance(kind, list) else kind, field)
+
+
+def _with_examples(text: str, field: Schema) -> str:
+    """Add the examples that are strings: a number without a unit says nothing."""
+    examples = [f'`"{text}"`' for text in field.get("examples", []) if isinstance(text, str)]
+    return f"{text} such as {', '.join(examples)}" if examples else text
 
 
 def _default(field: Schema) -> str:
     default = field.get("default")
     if default is None or default in ({}, [], ""):
-        return "none"
+        return ""
     if isinstance(default, bool):
         return f"`{str(default).lower()}`"
     return f'`"{default}"`' if isinstance(default, str) else f"`{default}`"

@@ -3,16 +3,28 @@
 docutils converts the LaTeX; every current browser draws the result.
 """
 
+import re
+
 from docutils import nodes
 from docutils.utils.math import latex2mathml
 from sphinx.application import Sphinx
 from sphinx.util.typing import ExtensionMetadata
 from sphinx.writers.html5 import HTML5Translator
 
+# LaTeX reads \frac12 as one half; docutils wants the braces.
+BARE_DIGIT = re.compile(r"(\\[td]?frac(?:\{[^{}]*\})?)\s*(\d)")
+
+
+def to_mathml(latex: str, as_block: bool = False) -> str:
+    """Return a formula as MathML."""
+    braced = BARE_DIGIT.sub(r"\1{\2}", BARE_DIGIT.sub(r"\1{\2}", latex))
+    mathml: str = latex2mathml.tex2mathml(braced, as_block=as_block)
+    return mathml
+
 
 def visit_inline(translator: HTML5Translator, node: nodes.math) -> None:
     """Write a formula in running text."""
-    translator.body.append(latex2mathml.tex2mathml(node.astext()))
+    translator.body.append(to_mathml(node.astext()))
     raise nodes.SkipNode
 
 
@@ -23,7 +35,7 @@ def visit_display(translator: HTML5Translator, node: nodes.math_block) -> None:
         translator.body.append(f'<span class="eqno">({number})</span>')
     # amsmath blocks bring an outer environment that only matters to a LaTeX document.
     source = node.astext().replace("{align*}", "{aligned}").replace("{equation*}", "{aligned}")
-    translator.body.append(latex2mathml.tex2mathml(source, as_block=True))
+    translator.body.append(to_mathml(source, as_block=True))
     translator.body.append("</div>\n")
     raise nodes.SkipNode
 
