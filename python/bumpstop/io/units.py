@@ -20,9 +20,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Dimension", "read_quantity"]
 
-_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*(.*?)\s*")
+_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
+_NUMBER_AND_UNIT = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
 # Names, joined by * / · and spaces, with small exponents: nothing that pint could compute with.
-_UNIT = re.compile(r"(?:1\s*/|[^\W\d]+(?:(?:\^|\*\*)?-?[0-9]\b)?[⁻¹²³⁴]*|[%°]|[*/·()\s])+")
+_UNIT = re.compile(r"(?:1\s*/|[^\W\d]++(?:(?:\^|\*\*)?-?[0-9]\b)?[⁻¹²³⁴]*+|[%°]|[*/·()\s])++")
 _BARE_EXPONENT = re.compile(r"(?<=[^\W\d])(-?[0-9])\b")
 _LONGEST = 60
 

@@ -4,19 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypedDict
 
 from bumpstop.post.references import Reference
 from bumpstop.problem import Problem
 
-__all__ = ["Case", "Method"]
+__all__ = ["Case", "Method", "MethodOptions"]
+
+
+class MethodOptions(TypedDict, total=False):
+    """Options of the fixed-step methods: the step in s, and whether it may be unstable."""
+
+    dt: float
+    beyond_stability_limit: bool
 
 
 class Method(NamedTuple):
-    """A method and the options of the fixed-step ones: ``dt`` in s, ``beyond_stability_limit``."""
+    """How time is integrated; methods without a fixed step have no use for the options."""
 
     name: str
-    options: dict[str, float]
+    options: MethodOptions
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -51,4 +58,4 @@ class Case:
     references: dict[str, list[Reference]]
     methods: dict[str, Method]
     method: str
-    method_options: dict[str, float]
+    method_options: MethodOptions

@@ -37,16 +37,12 @@ def read_document(path: Path) -> dict[str, Any]:
 
 
 def _content(path: Path) -> bytes:
+    _check_kind(path)
     try:
-        if path.is_dir():
-            hint = f"did you mean {str(path / 'case.toml')!r}?"
-            raise InputError("is a folder, not a case file", hint=hint)
-        if path.exists() and not path.is_file():
-            raise InputError("is not a regular file")
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
     except FileNotFoundError as error:
-        raise InputError("no such file") from error
+        raise InputError("no such file", hint="check the path") from error
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"cannot be read: {reason}") from error
@@ -54,6 +50,14 @@ def _content(path: Path) -> bytes:
         size = path.stat().st_size
         raise InputError(f"is too large, {size:,} bytes", hint=f"at most {LARGEST:,} are read")
     return content
+
+
+def _check_kind(path: Path) -> None:
+    if path.is_dir():
+        hint = f"did you mean {str(path / 'case.toml')!r}?"
+        raise InputError("is a folder, not a case file", hint=hint)
+    if path.exists() and not path.is_file():
+        raise InputError("is not a regular file", hint="give the path of a case file")
 
 
 def _text(content: bytes) -> str:
@@ -64,8 +68,8 @@ def _text(content: bytes) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        raise InputError("is not UTF-8 text", key=f"line {line}", hint="save it as UTF-8") from error
+        line = f"line {content.count(10, 0, error.start) + 1}"  # 10 is a line feed
+        raise InputError("is not UTF-8 text", key=line, hint="save it as UTF-8") from error
 
 
 def _parsed(text: str) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from bumpstop.errors import InputError
 from bumpstop.io.case.build import Builder
-from bumpstop.io.case.case import Case, Method
+from bumpstop.io.case.case import Case, Method, MethodOptions
 from bumpstop.io.case.document import read_document
 from bumpstop.io.case.keys import dotted
 from bumpstop.io.case.mistakes import first_mistake
@@ -69,8 +69,10 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
 
 
 def _method(case: CaseFile) -> Method:
-    options: dict[str, float] = {"beyond_stability_limit": case.run.beyond_stability_limit}
-    return Method(case.run.method, options if case.run.dt is None else {"dt": case.run.dt, **options})
+    options: MethodOptions = {"beyond_stability_limit": case.run.beyond_stability_limit}
+    if case.run.dt is not None:
+        options["dt"] = case.run.dt
+    return Method(case.run.method, options)
 
 
 def _checked(document: dict[str, Any]) -> CaseFile:

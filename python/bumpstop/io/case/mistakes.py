@@ -152,4 +152,8 @@ def _is_union(annotation: Any) -> bool:
 def _member(union: Any, tag: str | int) -> Any:
     """Return the member of a tagged union whose ``type`` is the tag."""
     members = (_bare(member) for member in get_args(union))
-    return next(member for member in members if tag in get_args(member.model_fields["type"].annotation))
+    return next(member for member in members if tag in get_args(_type_of_kind(member)))
+
+
+def _type_of_kind(table: type[Table]) -> Any:
+    return table.model_fields["type"].annotation

@@ -54,43 +54,42 @@ def overridden_paths(changes: dict[str, Any], above: KeyPath = ()) -> list[KeyPa
     return paths
 
 
-def _merge(target: dict[str, Any], changes: dict[str, Any], above: KeyPath) -> None:
+def _merge(target: Any, changes: dict[str, Any], above: KeyPath) -> None:
     for name, value in changes.items():
         *way, last = name.split(".")
         holder, path = target, above
         for part in way:
             path = (*path, part)
-            holder = holder[_index(holder, part, path)]
+            holder = holder[_step(holder, part, path)]
         _put(holder, last, value, (*path, last))
 
 
 def _put(holder: Any, last: str, value: Any, path: KeyPath) -> None:
+    if path[0] in _OWN:
+        raise InputError("cannot be changed by a variant", key=_quoted(path))
     if isinstance(holder, dict) and last not in holder:
-        if path[0] in _OWN:
-            raise InputError("cannot be changed by a variant", key=_quoted(path))
-        holder[last] = value
+        holder[last] = value  # a key that the case leaves to its default, or a wrong one
         return
-    index = _index(holder, last, path)
-    if isinstance(value, dict) and isinstance(holder[index], dict):
-        _merge(holder[index], value, path)
+    step = _step(holder, last, path)
+    if isinstance(value, dict) and isinstance(holder[step], dict):
+        _merge(holder[step], value, path)
     else:
-        holder[index] = value
+        holder[step] = value
 
 
-def _index(holder: Any, part: str, path: KeyPath) -> str | int:
-    """Return the key or index of a part that is there."""
+def _step(holder: Any, part: str, path: KeyPath) -> Any:
+    """Return the key or index under which a part is there."""
     if isinstance(holder, dict):
         if part in holder:
             return part
         hint = did_you_mean(part, holder)
-        raise InputError("leads nowhere in this file", key=_quoted(path), hint=hint)
-    if not isinstance(holder, list):
-        what = f"leads nowhere: {dotted(path[:-1])} is not a table"
-        raise InputError(what, key=_quoted(path))
-    if not (part.isdecimal() and int(part) < len(holder)):
+    elif isinstance(holder, list):
+        if part.isdecimal() and int(part) < len(holder):
+            return int(part)
         hint = f"{dotted(path[:-1])} has items 0 to {len(holder) - 1}"
-        raise InputError("leads nowhere in this file", key=_quoted(path), hint=hint)
-    return int(part)
+    else:
+        hint = f"{dotted(path[:-1])} is not a table"
+    raise InputError("leads nowhere in this file", key=_quoted(path), hint=hint)
 
 
 def _quoted(path: KeyPath) -> str:

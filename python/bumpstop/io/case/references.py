@@ -74,9 +74,7 @@ def _absolute(table: ReferenceTable, target: Reference) -> float | None:
     return _in_si("absolute_tolerance", table.absolute_tolerance, target, above=0.0)
 
 
-def _in_si(
-    key: str, value: float | str, target: Reference, above: float | None = None
-) -> float:
+def _in_si(key: str, value: float | str, target: Reference, above: float | None = None) -> float:
     unit = "" if target.units == "1" else target.units
     dimension = Dimension(f"a {target.quantity}".replace("_", " "), unit, f"1 {unit}")
     with keyed(key):
@@ -88,8 +86,12 @@ def _ascending(times: Sequence[float], duration: float) -> Sequence[float]:
         if later <= earlier:
             raise InputError("times must ascend", key=f"times.{number}", value=later)
     if times and times[-1] > duration:
-        hint = f"run.duration is {duration:g} s"
-        raise InputError("is after the end of the run", key=f"times.{len(times) - 1}", value=times[-1], hint=hint)
+        raise InputError(
+            "is after the end of the run",
+            key=f"times.{len(times) - 1}",
+            value=times[-1],
+            hint=f"run.duration is {duration:g} s",
+        )
     return times
 
 

@@ -56,9 +56,9 @@ def read_list(
     InputError
         If it is not a list, is empty, has another length than asked for, or an item is wrong.
     """
-    wanted = f"must be a list of {things}" if length is None else f"must be a list of {length} {things}"
     if not isinstance(value, list) or not value or (length and len(value) != length):
-        raise InputError(wanted, value=value)
+        wanted = things if length is None else f"{length} {things}"
+        raise InputError(f"must be a list of {wanted}", value=value)
     return [_read_item(index, item, read) for index, item in enumerate(value)]
 
 

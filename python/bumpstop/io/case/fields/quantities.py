@@ -80,7 +80,9 @@ def read_number(
     """
     number = _finite(value, dimension)
     if above is not None and number <= above:
-        raise InputError("must be positive" if above == 0 else f"must exceed {above:g}", value=value)
+        raise InputError(
+            "must be positive" if above == 0 else f"must exceed {above:g}", value=value
+        )
     if least is not None and number < least:
         what = "must not be negative" if least == 0 else f"must be at least {least:g}"
         raise InputError(what, value=value)
@@ -142,8 +144,8 @@ def _one_or_many(dimension: Dimension, least: float) -> Plain:
     """Return a field that is one number, or a list of them."""
     one, many = _quantity(dimension, least=least), _series(dimension, least=least)
 
-    def read(value: object) -> float | list[float]:
-        return many.read(value) if isinstance(value, list) else one.read(value)
+    def read(value: object) -> object:
+        return (many if isinstance(value, list) else one).read(value)
 
     return Plain(read, {"anyOf": [*one.schema["anyOf"], many.schema], "examples": [0.01]})
 

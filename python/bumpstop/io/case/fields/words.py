@@ -44,7 +44,7 @@ def _read_node(value: object) -> str:
 
 
 def _read_nodes(value: object) -> list[str]:
-    return ["all"] if value == "all" else read_list(value, _read_node, "node names, or \"all\"")
+    return ["all"] if value == "all" else read_list(value, _read_node, 'node names, or "all"')
 
 
 def _read_ends(value: object) -> tuple[str, ...]:
@@ -80,8 +80,6 @@ Name = Annotated[str, Plain(_read_name, {**_STRING, "pattern": f"^{_NAME}$"})]
 NodeName = Annotated[str, Plain(_read_node_name, {**_STRING, "pattern": f"^{_NAME}$"})]
 Node = Annotated[str, Plain(_read_node, {**_STRING, "examples": ["B", "AB.3", "AB@0.462 m"]})]
 Nodes = Annotated[list[str], Plain(_read_nodes, {"anyOf": [{"const": "all"}, _STRINGS]})]
-BeamEnds = Annotated[
-    tuple[str, str], Plain(_read_ends, {**_STRINGS, "minItems": 2, "maxItems": 2})
-]
+BeamEnds = Annotated[tuple[str, str], Plain(_read_ends, {**_STRINGS, "minItems": 2, "maxItems": 2})]
 OneDof = Annotated[str, choice(*DOFS)]
 Dofs = Annotated[list[str], Plain(_read_dofs, {**_STRINGS, "items": {"enum": list(DOFS)}})]

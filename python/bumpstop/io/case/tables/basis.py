@@ -14,5 +14,6 @@ class BasisTable(Table):
 
     modes: Count = Field(description="Number of modes, the lowest ones, rigid-body modes included")
     damping: ModalDamping = Field(
-        default=0.0, description="Damping ratio (1 is critical) of every mode, or a list: one a mode"
+        default=0.0,
+        description="Damping ratio (1 is critical) of every mode, or a list: one a mode",
     )

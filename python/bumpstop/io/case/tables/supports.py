@@ -12,4 +12,6 @@ class SupportTable(Table):
     """Nodes that are held along or about some axes."""
 
     nodes: Nodes = Field(description='Names of nodes, or "all", which means those in beams too')
-    fixed: Dofs = Field(description="What is held: dx dy dz (displacements), drx dry drz (rotations)")
+    fixed: Dofs = Field(
+        description="What is held: dx dy dz (displacements), drx dry drz (rotations)"
+    )

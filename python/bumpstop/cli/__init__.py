@@ -1,0 +1,5 @@
+"""The command line: ``bumpstop run``, ``modes``, ``verify``, ``report``, ``schema``."""
+
+from bumpstop.cli.main import main
+
+__all__ = ["main"]

@@ -1,0 +1,77 @@
+"""Printing: tables in colour on a terminal, aligned text in a pipe, JSON where asked for."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+__all__ = ["Table", "print_json", "print_line", "print_table"]
+
+
+class Table(NamedTuple):
+    """Rows of texts; where a row is good or bad, its last cell says so in colour."""
+
+    headers: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    good: Sequence[bool] | None = None
+
+
+def print_json(value: dict[str, Any]) -> None:
+    """Print one JSON object. What is not a finite number becomes null, as JSON has no NaN."""
+    import json
+
+    print(json.dumps(_finite(value), allow_nan=False))
+
+
+def print_line(text: str = "", *, style: str = "") -> None:
+    """Print a line, in a style where the output is a terminal."""
+    if sys.stdout.isatty():
+        _rich_console().print(text, style=style, markup=False, highlight=False)
+    else:
+        print(text)
+
+
+def print_table(table: Table) -> None:
+    """Print a table."""
+    if sys.stdout.isatty():
+        _print_rich(table)
+    else:
+        _print_plain(table)
+
+
+def _print_plain(table: Table) -> None:
+    lines = [table.headers, *table.rows]
+    widths = [max(len(cell) for cell in column) for column in zip(*lines, strict=True)]
+    for line in lines:
+        cells = [cell.rjust(width) for cell, width in zip(line, widths, strict=True)]
+        print("  " + "  ".join(cells).rstrip())
+
+
+def _print_rich(table: Table) -> None:
+    from rich import box
+    from rich.table import Table as RichTable
+    from rich.text import Text
+
+    drawn = RichTable(box=box.SIMPLE_HEAD, pad_edge=False, header_style="bold")
+    for header in table.headers:
+        drawn.add_column(header, justify="right")
+    for number, row in enumerate(table.rows):
+        style = "" if table.good is None else "green" if table.good[number] else "bold red"
+        drawn.add_row(*map(Text, row[:-1]), Text(row[-1], style=style))
+    _rich_console().print(drawn)
+
+
+def _rich_console() -> Any:
+    from rich.console import Console
+
+    return Console()
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

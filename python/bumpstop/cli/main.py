@@ -1,0 +1,85 @@
+"""The way in and the ways out: arguments to a command, exceptions to one line and a status."""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+
+import typer
+from typer.main import get_command
+
+from bumpstop.cli.app import app
+from bumpstop.errors import BumpstopError
+
+__all__ = ["main"]
+
+INTERRUPTED = 130
+WRONG_INPUT = 2
+UNFINISHED = 3
+
+# The base class of all mistakes in arguments; typer names only this child of it.
+_UsageError: type[typer.BadParameter] = typer.BadParameter.__mro__[1]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    arguments
+        What follows the program's name; those of the process where left out.
+
+    Returns
+    -------
+    int
+        Exit status: 0 good; 1 a reference check failed; 2 the input is wrong; 3 the
+        computation could not be finished; 130 interrupted.
+    """
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    debug = "--debug" in given
+    words = [word for word in given if word != "--debug"] or ["--help"]
+    _replace_what_cannot_be_encoded()
+    try:
+        status = get_command(app).main(words, prog_name="bumpstop", standalone_mode=False)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Whoever read our output has seen enough; leave nothing for Python to flush at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except Exception as error:
+        if debug:
+            traceback.print_exc()
+        return _failed(error)
+    return int(status or 0)
+
+
+def _failed(error: Exception) -> int:
+    """Say in one line what went wrong, and return the exit status."""
+    if isinstance(error, BumpstopError):
+        _say(f"error: {error}")
+        return error.exit_status
+    if isinstance(error, _UsageError):
+        _say(f"error: {error.format_message().rstrip('.')}; see 'bumpstop --help'")
+        return WRONG_INPUT
+    if isinstance(error, MemoryError):
+        _say("error: not enough memory; take fewer samples, elements or modes")
+        return UNFINISHED
+    _say(
+        f"error: this is a mistake in bumpstop itself: {type(error).__name__}: {error}; "
+        "run it again with --debug and report what that prints"
+    )
+    return UNFINISHED
+
+
+def _say(line: str) -> None:
+    one_line = "".join(char if char.isprintable() else " " for char in line)
+    print(one_line, file=sys.stderr)
+
+
+def _replace_what_cannot_be_encoded() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")

@@ -1,0 +1,105 @@
+"""Writing results: all of them or none."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from bumpstop.cli.solve import CaseResult
+from bumpstop.errors import InputError
+
+__all__ = ["check_writable", "write_outputs", "write_report_alone"]
+
+
+def check_writable(folder: Path) -> None:
+    """Refuse a folder that cannot be written to, before anything is computed.
+
+    Raises
+    ------
+    InputError
+        If it is a file, or its nearest parent that exists is none or cannot be written to.
+    """
+    nearest = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not nearest.is_dir():
+        raise _unwritable(folder, f"{nearest} is not a folder")
+    if not os.access(nearest, os.W_OK | os.X_OK):
+        raise _unwritable(folder, f"{nearest} is not writable")
+
+
+def write_outputs(result: CaseResult, folder: Path, *, report: bool) -> None:
+    """Write ``<variant>/response.nc`` of each variant, and ``report.html``.
+
+    Raises
+    ------
+    InputError
+        If something cannot be written; then nothing is left behind.
+    """
+    with _all_or_nothing(folder) as staging:
+        for variant in result.variants:
+            (staging / variant.name).mkdir()
+            variant.response.to_netcdf(
+                staging / variant.name / "response.nc",
+                title=result.case.title,
+                case=result.case.name,
+                variant=variant.name,
+            )
+        if report:
+            _write_report(result, staging)
+
+
+def write_report_alone(result: CaseResult, folder: Path) -> None:
+    """Write ``report.html``.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written; then nothing is left behind.
+    """
+    with _all_or_nothing(folder) as staging:
+        _write_report(result, staging)
+
+
+def _write_report(result: CaseResult, folder: Path) -> None:
+    from bumpstop.report.html import write_report
+
+    responses = {variant.name: variant.response for variant in result.variants}
+    checks = {variant.name: variant.checks for variant in result.variants}
+    write_report(result.case, responses, checks, folder / "report.html")
+
+
+@contextmanager
+def _all_or_nothing(folder: Path) -> Iterator[Path]:
+    """Give a folder beside the wanted one; its files move over once all are complete."""
+    target = folder.absolute()
+    missing = [parent for parent in target.parents if not parent.exists()]
+    staging = target.parent / f".{target.name}.part-{os.getpid()}"
+    try:
+        staging.mkdir(parents=True)
+        yield staging
+        _move_over(staging, target)
+    except OSError as error:
+        raise _unwritable(folder, error.strerror or str(error)) from error
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+        for parent in missing:
+            if not any(parent.iterdir()):
+                parent.rmdir()
+
+
+def _move_over(staging: Path, target: Path) -> None:
+    if not target.exists():
+        staging.rename(target)
+        return
+    for file in staging.rglob("*.*"):
+        place = target / file.relative_to(staging)
+        place.parent.mkdir(exist_ok=True)
+        file.replace(place)
+
+
+def _unwritable(folder: Path, why: str) -> InputError:
+    return InputError(
+        f"cannot write there: {why}", key="--out", value=str(folder), hint="name another folder"
+    )

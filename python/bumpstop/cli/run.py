@@ -1,0 +1,33 @@
+"""``bumpstop run``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from bumpstop.cli.console import print_json
+from bumpstop.cli.outputs import check_writable, write_outputs
+from bumpstop.cli.progress import progress_display
+from bumpstop.cli.records import case_record
+from bumpstop.cli.solve import solve_case
+from bumpstop.cli.summary import print_summary
+from bumpstop.io.case import load_case
+
+__all__ = ["run_command"]
+
+
+def run_command(
+    path: Path, *, method: str | None, out: Path | None, json: bool, report: bool
+) -> int:
+    """Simulate a case, write what was asked for and say how it compares; return the status."""
+    case = load_case(path)
+    if out is not None:
+        check_writable(out)
+    result = solve_case(case, method, progress_display)
+    record = case_record(result)
+    if out is not None:
+        write_outputs(result, out, report=report)
+    if json:
+        print_json(record)
+    else:
+        print_summary(result, record, out)
+    return 0 if result.passed else 1

@@ -1,0 +1,96 @@
+"""Simulating the variants of a case and checking them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from typing import NamedTuple, TypeAlias
+
+from bumpstop.arguments import did_you_mean
+from bumpstop.errors import ComputationError, InputError
+from bumpstop.io.case import Case
+from bumpstop.io.case.case import MethodOptions
+from bumpstop.post.references import Check, check_references
+from bumpstop.response import Response
+from bumpstop.simulate import FIXED_STEP_METHODS, METHODS, simulate
+
+__all__ = ["CaseResult", "Progress", "VariantResult", "solve_case"]
+
+Progress: TypeAlias = Callable[[str], AbstractContextManager[Callable[[float], None] | None]]
+"""Opens a progress display under a name and gives what to call with the fraction done."""
+
+
+class VariantResult(NamedTuple):
+    """One variant, simulated and checked."""
+
+    name: str
+    response: Response
+    checks: list[Check]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every check passed."""
+        return all(check.passed for check in self.checks)
+
+
+class CaseResult(NamedTuple):
+    """All variants of a case, simulated and checked."""
+
+    case: Case
+    variants: list[VariantResult]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every check of every variant passed."""
+        return all(variant.passed for variant in self.variants)
+
+
+def solve_case(case: Case, method: str | None, progress: Progress) -> CaseResult:
+    """Simulate every variant and compare it with its references.
+
+    Parameters
+    ----------
+    case
+        The case.
+    method
+        How to integrate time instead of as the case says.
+    progress
+        Shows how far a variant is.
+
+    Raises
+    ------
+    InputError
+        If the method is unknown or refuses the case.
+    ComputationError
+        If a variant could not be finished.
+    """
+    if method is not None and method not in METHODS:
+        hint = did_you_mean(method, METHODS)
+        raise InputError("unknown method", key="--method", value=method, hint=hint)
+    return CaseResult(case, [_solved(case, name, method, progress) for name in case.problems])
+
+
+def _solved(case: Case, name: str, method: str | None, progress: Progress) -> VariantResult:
+    own_method, options = case.methods[name]
+    chosen = method or own_method
+    with _located(case, name), progress(f"{case.name}, {name}") as tell:
+        used = options if chosen in FIXED_STEP_METHODS else MethodOptions()
+        response = simulate(case.problems[name], chosen, progress=tell, **used)
+    return VariantResult(name, response, check_references(response, case.references[name]))
+
+
+@contextmanager
+def _located(case: Case, variant: str) -> Iterator[None]:
+    """Say in which file and variant something was wrong or could not be finished."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(
+            error.what,
+            file=str(case.path),
+            key=f"run.{error.key}" if error.key else "run",
+            value=error.value,
+            hint=error.hint,
+        ) from error
+    except ComputationError as error:
+        raise ComputationError(f"{case.path}: variant {variant}: {error}") from error

@@ -1,0 +1,106 @@
+"""What ``bumpstop run`` tells a person."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from bumpstop.cli.console import Table, print_line, print_table
+from bumpstop.cli.solve import CaseResult, VariantResult
+from bumpstop.post.references import Check
+
+__all__ = ["print_summary", "verdict"]
+
+
+def print_summary(result: CaseResult, record: dict[str, Any], out: Path | None) -> None:
+    """Print, for each variant, published against computed values and how the run went.
+
+    Parameters
+    ----------
+    result
+        What was computed.
+    record
+        The same as `case_record` gives it.
+    out
+        Where files were written.
+    """
+    print_line(result.case.title, style="bold")
+    for variant, numbers in zip(result.variants, record["variants"], strict=True):
+        print_line()
+        print_line(variant.name, style="bold cyan")
+        for caption, table in _tables(variant):
+            print_line(f"  {caption}")
+            print_table(table)
+        print_line(f"  {_how(numbers)}")
+        print_line(f"  {verdict(variant.checks)}", style="green" if variant.passed else "bold red")
+    if out is not None:
+        print_line()
+        print_line(f"written to {out}")
+
+
+def verdict(checks: list[Check]) -> str:
+    """Return how many checks passed, in words."""
+    if not checks:
+        return "no references to check"
+    passed = sum(check.passed for check in checks)
+    if passed == len(checks):
+        return f"all {passed} checks passed" if passed > 1 else "the check passed"
+    return f"{len(checks) - passed} of {len(checks)} checks FAILED"
+
+
+def _how(numbers: dict[str, Any]) -> str:
+    return (
+        f"method {numbers['method']}, {_many(numbers['steps'], 'step')}, "
+        f"{_many(numbers['events'], 'event')}, {_many(numbers['impacts'], 'impact')}, "
+        f"energy residual {numbers['energy_residual']:.1e}, "
+        f"solved in {_duration(numbers['solve_seconds'])}"
+    )
+
+
+def _many(count: int, thing: str) -> str:
+    return f"{count:,} {thing}{'' if count == 1 else 's'}"
+
+
+def _duration(seconds: float) -> str:
+    for size, unit in ((1.0, "s"), (1e-3, "ms")):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds * 1e6:.3g} us"
+
+
+def _tables(variant: VariantResult) -> Iterator[tuple[str, Table]]:
+    """Yield a table for each thing that is checked."""
+    for (quantity, target, units), group in groupby(variant.checks, _subject):
+        checks = list(group)
+        of = " ".join(str(part) for part in target[1:])
+        unit = "" if units == "1" else f", in {units}"
+        yield f"{quantity.replace('_', ' ')} of {of}{unit}", _table(checks)
+
+
+def _subject(check: Check) -> tuple[str, tuple[str | int, ...], str]:
+    return check.quantity, check.target, check.units
+
+
+def _table(checks: list[Check]) -> Table:
+    return Table(
+        headers=("time [s]", "published", "computed", "deviation", "tolerance", "ok"),
+        rows=[_row(check) for check in checks],
+        good=[check.passed for check in checks],
+    )
+
+
+def _row(check: Check) -> tuple[str, ...]:
+    return (
+        f"{check.time:.6g}",
+        f"{check.reference:.6g}",
+        f"{check.value:.6g}",
+        _deviation(check.deviation, check.absolute),
+        _deviation(check.tolerance, check.absolute),
+        "yes" if check.passed else "NO",
+    )
+
+
+def _deviation(value: float, absolute: bool) -> str:
+    return f"{value:.3g}" if absolute else f"{100 * value:.3g} %"
