@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import KW_ONLY, dataclass, field
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray, all_of, listed, name, positive, refuse_twins
 from bumpstop.errors import InputError
 from bumpstop.laws import Stop
+from bumpstop.modal.basis import ModalBasis
 from bumpstop.structure.gauge import Gauge
-
-if TYPE_CHECKING:
-    from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["InitialState", "Load", "Problem"]
 
@@ -37,6 +35,7 @@ class Load(Protocol):
         """Return the force on each mode (N,)."""
 
 
+@runtime_checkable
 class InitialState(Protocol):
     """Where the structure is and how it moves at t = 0."""
 
@@ -102,6 +101,10 @@ class Problem:
     outputs: Sequence[tuple[str, str]] = ()
 
     def __post_init__(self) -> None:
+        if not isinstance(self.basis, ModalBasis):
+            raise InputError("must be a ModalBasis", key="basis", value=type(self.basis).__name__)
+        if not isinstance(self.initial, InitialState | None):
+            raise InputError("must be an initial state", key="initial", value=self.initial)
         for key, kind in PARTS.items():
             parts = all_of(key, kind, getattr(self, key))
             refuse_twins(key, [part.name for part in parts])
@@ -153,7 +156,8 @@ class Problem:
             with _at(f"loads.{load.name}"):
                 load.modal_force(self.basis)
         for gauge in self.gauges:
-            self.basis.gauge_row(gauge)
+            with _at(f"gauges.{gauge.name}"):
+                self.basis.gauge_row(gauge)
         for node, dof in self.outputs:
             with _at("outputs"):
                 self.basis.row(node, dof)
