@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import typer
 from typer.main import get_command
 
-from bumpstop.cli.app import app
+from bumpstop.cli.app import Job, app
 from bumpstop.errors import BumpstopError
 
-__all__ = ["main"]
+__all__ = ["run_command_line"]
 
 INTERRUPTED = 130
 WRONG_INPUT = 2
@@ -24,27 +24,17 @@ UNFINISHED = 3
 _UsageError: type[typer.BadParameter] = typer.BadParameter.__mro__[1]
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command.
-
-    Parameters
-    ----------
-    arguments
-        What follows the program's name; those of the process where left out.
-
-    Returns
-    -------
-    int
-        Exit status: 0 good; 1 a reference check failed; 2 the input is wrong; 3 the
-        computation could not be finished; 130 interrupted.
-    """
+def run_command_line(arguments: Sequence[str] | None) -> int:
+    """Run a command and return the exit status; see `bumpstop.cli.main`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     debug = "--debug" in given
     words = [word for word in given if word != "--debug"] or ["--help"]
     _replace_what_cannot_be_encoded()
     try:
-        status = get_command(app).main(words, prog_name="bumpstop", standalone_mode=False)
-        sys.stdout.flush()
+        return _done(get_command(app).main(words, prog_name="bumpstop", standalone_mode=False))
+    except KeyboardInterrupt:
+        _say("interrupted")
+        return INTERRUPTED
     except BrokenPipeError:
         # Whoever read our output has seen enough; leave nothing for Python to flush at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -53,7 +43,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if debug:
             traceback.print_exc()
         return _failed(error)
-    return int(status or 0)
+
+
+def _done(command: Job | int) -> int:
+    """Do what a command wants done; --help and --version come as a status, done already."""
+    status = command if isinstance(command, int) else command()
+    sys.stdout.flush()
+    return status
 
 
 def _failed(error: Exception) -> int:

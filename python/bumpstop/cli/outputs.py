@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -75,18 +75,25 @@ def _all_or_nothing(folder: Path) -> Iterator[Path]:
     """Give a folder beside the wanted one; its files move over once all are complete."""
     target = folder.absolute()
     missing = [parent for parent in target.parents if not parent.exists()]
-    staging = target.parent / f".{target.name}.part-{os.getpid()}"
+    staging = target.parent / f".{target.name}.{os.getpid()}.part"
     try:
         staging.mkdir(parents=True)
         yield staging
         _move_over(staging, target)
     except OSError as error:
         raise _unwritable(folder, error.strerror or str(error)) from error
+    except InputError as error:
+        raise _unwritable(folder, error.what) from error
     finally:
         shutil.rmtree(staging, ignore_errors=True)
-        for parent in missing:
-            if not any(parent.iterdir()):
-                parent.rmdir()
+        _remove_empty(missing)
+
+
+def _remove_empty(folders: Sequence[Path]) -> None:
+    """Remove folders that were made on the way and hold nothing."""
+    for folder in folders:
+        if folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
 
 
 def _move_over(staging: Path, target: Path) -> None:
@@ -101,5 +108,5 @@ def _move_over(staging: Path, target: Path) -> None:
 
 def _unwritable(folder: Path, why: str) -> InputError:
     return InputError(
-        f"cannot write there: {why}", key="--out", value=str(folder), hint="name another folder"
+        f"cannot be written to: {why}", key="--out", value=str(folder), hint="name another folder"
     )

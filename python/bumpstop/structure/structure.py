@@ -202,7 +202,8 @@ class Structure:
         attached = np.zeros(len(self.mesh.names), dtype=bool)
         for block in self._blocks:
             attached[block.dofs // 6] = True
-        loose = np.setdiff1d(self.free // 6, np.flatnonzero(attached))
+        moving = self.free // 6
+        loose = moving[~attached[moving]]
         if len(loose):
             node = self.mesh.names[loose[0]]
             hint = "put a beam or a mass on it, or fix all its dofs"
