@@ -152,7 +152,8 @@ class ModalBasis:
             return self.structure.displacement_form(node, dof).of(self.shapes)
         number = self._rows.get((node, one_of("dof", dof, DOFS)))
         if number is not None:
-            return self.shapes[number].copy()
+            own: FloatArray = self.shapes[number].copy()
+            return own
         nodes = dict.fromkeys(known for known, _ in self.dofs)
         if node not in nodes:
             hint = did_you_mean(node, nodes)

@@ -93,26 +93,22 @@ def _block_modes(
 def _flexible_modes(
     stiffness: FloatArray, mass: FloatArray, rigid: FloatArray, count: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the lowest modes that are mass-orthogonal to the rigid ones.
-
-    On that complement the stiffness is positive definite, which allows the inverse problem
-    ``-M x = -1/omega2 K x``: there the modes wanted are the large eigenvalues, so the lowest
-    do not drown in the rounding of the highest.
-    """
+    """Return the lowest modes that are mass-orthogonal to the rigid ones."""
     complement = null_space((mass @ rigid).T)
     count = min(count, complement.shape[1])
     if count == 0:
         return np.zeros(0), np.zeros((len(mass), 0))
-    reduced_mass, reduced_stiffness = (
-        _symmetric(complement.T @ matrix @ complement) for matrix in (mass, stiffness)
+    reduced_stiffness, reduced_mass = (
+        _symmetric(complement.T @ matrix @ complement) for matrix in (stiffness, mass)
     )
     try:
-        _, vectors = symmetric_modes(-reduced_mass, reduced_stiffness, count)
+        _, vectors = symmetric_modes(reduced_stiffness, reduced_mass, count)
     except CoreError as error:
         raise ComputationError(f"the modes could not be computed: {error}") from error
     shapes = complement @ vectors
     shapes -= rigid @ (rigid.T @ (mass @ shapes))
     shapes /= np.sqrt(np.sum(shapes * (mass @ shapes), axis=0))
+    # Rayleigh quotients: their error is the square of that of the shapes.
     omega2: FloatArray = np.sum(shapes * (stiffness @ shapes), axis=0)
     return omega2, shapes
 

@@ -61,7 +61,7 @@ class Beam:
     """
 
     name: str
-    nodes: tuple[str, str] = field(kw_only=True)
+    nodes: Sequence[str] = field(kw_only=True)
     elements: int = field(kw_only=True)
     material: Material = field(kw_only=True)
     section: Section = field(kw_only=True)

@@ -33,8 +33,8 @@ class Support:
         If there is no node or no dof, or a dof is unknown.
     """
 
-    nodes: str | tuple[str, ...]
-    fixed: tuple[str, ...]
+    nodes: str | Sequence[str]
+    fixed: str | Sequence[str]
 
     def __post_init__(self) -> None:
         if self.nodes != "all":
