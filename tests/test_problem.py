@@ -1,3 +1,5 @@
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -25,7 +27,7 @@ def stop(name: str = "guide", node: str = "P") -> Stop:
     return Stop(name, node=node, normal=(-1, 0, 0), gap=1e-3, stiffness=1e6)
 
 
-def test_lists_become_tuples():
+def test_lists_become_tuples() -> None:
     problem = Problem(basis(), laws=[stop()], outputs=[["P", "dx"]], duration=1.0)  # type: ignore[list-item]  # as read from a file
     assert isinstance(problem.laws, tuple)
     assert problem.outputs == (("P", "dx"),)
@@ -60,21 +62,22 @@ def test_lists_become_tuples():
         ({"outputs": [("P", "dz")]}, "outputs.dof", "'dz'"),
     ],
 )
-def test_refuses(changes, key, what):
+def test_refuses(changes: dict[str, Any], key: str, what: str) -> None:
+    given: dict[str, Any] = {"laws": [stop()], "duration": 1.0}
     with pytest.raises(InputError, match=what) as caught:
-        Problem(basis(), **({"laws": [stop()], "duration": 1.0} | changes))
+        Problem(basis(), **(given | changes))
     assert caught.value.key == key
     assert "\n" not in str(caught.value)
 
 
-def test_the_basis_must_be_one():
+def test_the_basis_must_be_one() -> None:
     with pytest.raises(InputError, match="basis: must be a ModalBasis"):
         Problem([3.0, 7.5], duration=1.0)  # type: ignore[arg-type]  # what is tested
 
 
 @pytest.mark.parametrize("sample", [1e-5, 1e-4, 3e-4, 0.1 / 3, 0.1, None])
 @pytest.mark.parametrize("duration", [0.1, 0.3, 0.02 / 3])
-def test_sample_grid(duration, sample):
+def test_sample_grid(duration: Any, sample: Any) -> None:
     if sample is not None and sample > duration:
         pytest.skip("refused")
     times = Problem(basis(), duration=duration, sample=sample).times
@@ -87,18 +90,18 @@ def test_sample_grid(duration, sample):
     assert 0.0 < steps[-1] <= interval * (1.0 + 1e-9)
 
 
-def test_default_grid_has_a_thousand_intervals():
+def test_default_grid_has_a_thousand_intervals() -> None:
     assert len(Problem(basis(), duration=0.7).times) == 1001
 
 
-def test_canonical_form_adds_up_loads():
+def test_canonical_form_adds_up_loads() -> None:
     push = [NodalForce(name, node="P", force=(2.0, 0, 0)) for name in ("one", "two")]
     form = canonical_form(Problem(basis(), loads=push, duration=1.0))
     assert form.force.tolist() == [4.0, 1.6]
     assert form.displacement.tolist() == form.velocity.tolist() == [0.0, 0.0]
 
 
-def test_canonical_form_takes_the_state_as_it_is():
+def test_canonical_form_takes_the_state_as_it_is() -> None:
     state = ModalState(displacement=[0.1, 0.2], velocity=[0.3, 0.4])
     form = canonical_form(Problem(basis(), initial=state, duration=1.0))
     assert form.displacement.tolist() == [0.1, 0.2]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import count
 from pathlib import Path
 
@@ -42,10 +42,12 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     # In the same folder, since a rename is only atomic within one file system.
     part = final.with_name(f".{final.name}.{os.getpid()}-{next(_numbers)}.part")
     try:
+        part.touch()
         yield part
         part.replace(final)
     except OSError as error:
         reason = error.strerror or str(error)
         raise InputError(f"cannot be written: {reason}", file=str(final)) from error
     finally:
-        part.unlink(missing_ok=True)
+        with suppress(OSError):
+            part.unlink(missing_ok=True)

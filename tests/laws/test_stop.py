@@ -1,9 +1,17 @@
+from typing import Any
+
 import numpy as np
 import pytest
 
 from bumpstop import InputError, ModalBasis, Stop
 
-GOOD = {"node": "P", "normal": (0, 1, 0), "gap": 1e-3, "stiffness": 1e6, "damping": 0.0}
+GOOD: dict[str, Any] = {
+    "node": "P",
+    "normal": (0, 1, 0),
+    "gap": 1e-3,
+    "stiffness": 1e6,
+    "damping": 0.0,
+}
 
 
 def basis() -> ModalBasis:
@@ -30,38 +38,38 @@ def basis() -> ModalBasis:
         ("obstacle", "plan", "did you mean 'plane'"),
     ],
 )
-def test_refuses(key, value, what):
+def test_refuses(key: str, value: Any, what: str) -> None:
     with pytest.raises(InputError, match=what) as caught:
         Stop("guide", **(GOOD | {key: value}))
     assert caught.value.key == key
 
 
-def test_is_frozen():
+def test_is_frozen() -> None:
     stop = Stop("guide", **GOOD)
     with pytest.raises(AttributeError):
         stop.stiffness = 1.0  # type: ignore[misc]  # what is tested
 
 
-def test_row_is_the_normal_times_the_shapes():
+def test_row_is_the_normal_times_the_shapes() -> None:
     stop = Stop("guide", **(GOOD | {"normal": (3, -4, 0)}))
     np.testing.assert_allclose(stop.row(basis()), [0.6 - 0.4, 0.24 + 1.6], rtol=1e-15)
 
 
-def test_row_asks_for_no_shape_that_it_does_not_need():
+def test_row_asks_for_no_shape_that_it_does_not_need() -> None:
     stop = Stop("guide", **(GOOD | {"node": "P", "normal": (-1, 0, 0)}))
     assert stop.row(basis()).tolist() == [-1.0, -0.4]
 
 
-def test_a_node_without_shapes_is_named():
-    with pytest.raises(InputError, match="'PP'.*did you mean 'P'"):
+def test_a_node_without_shapes_is_named() -> None:
+    with pytest.raises(InputError, match=r"'PP'.*did you mean 'P'"):
         Stop("guide", **(GOOD | {"node": "PP"})).row(basis())
 
 
-def test_a_direction_without_shapes_is_named():
+def test_a_direction_without_shapes_is_named() -> None:
     with pytest.raises(InputError, match="'dz'"):
         Stop("guide", **(GOOD | {"normal": (0, 0, 1)})).row(basis())
 
 
-def test_a_node_that_no_mode_moves_is_refused():
+def test_a_node_that_no_mode_moves_is_refused() -> None:
     with pytest.raises(InputError, match=r"no mode moves this node.*'Q'"):
         Stop("guide", **(GOOD | {"node": "Q", "normal": (1, 0, 0)})).row(basis())

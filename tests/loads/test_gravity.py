@@ -16,7 +16,7 @@ from bumpstop import (
 LENGTH, SIDE, DENSITY = 0.783, 0.014, 2400.0
 
 
-def test_weight_on_the_rigid_mode_of_a_hinged_beam(hinged_beam):
+def test_weight_on_the_rigid_mode_of_a_hinged_beam(hinged_beam: ModalBasis) -> None:
     """The moment of the weight about the hinge over the root of the moment of inertia."""
     weight = Gravity("weight", acceleration=(0, -9.81, 0)).modal_force(hinged_beam)
     line_mass = DENSITY * SIDE**2
@@ -25,7 +25,7 @@ def test_weight_on_the_rigid_mode_of_a_hinged_beam(hinged_beam):
     assert weight[0] == pytest.approx(-moment / np.sqrt(inertia), rel=1e-12)
 
 
-def test_weight_bends_a_clamped_beam_as_in_statics():
+def test_weight_bends_a_clamped_beam_as_in_statics() -> None:
     """All modes together give the static tip deflection, supports' share of mass included."""
     steel = Material(young_modulus=210e9, poisson_ratio=0.25, density=7800.0)
     bar = Rectangle(height=0.02, width=0.01)
@@ -49,7 +49,7 @@ def test_weight_bends_a_clamped_beam_as_in_statics():
     assert tip == pytest.approx(-load * (1 / (8 * bending) + 1 / (2 * shear)), rel=1e-10)
 
 
-def test_weight_of_a_point_mass():
+def test_weight_of_a_point_mass() -> None:
     ball = Structure(
         nodes={"P": (0, 0, 0)},
         masses=[PointMass("ball", node="P", mass=4.0)],
@@ -60,7 +60,7 @@ def test_weight_of_a_point_mass():
     assert weight == pytest.approx([-9.81 * 2.0], rel=1e-15)
 
 
-def test_modes_without_masses_have_no_weight():
+def test_modes_without_masses_have_no_weight() -> None:
     basis = ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
     with pytest.raises(InputError, match="give a NodalForce"):
         Gravity("weight", acceleration=(0, -9.81, 0)).modal_force(basis)

@@ -75,8 +75,8 @@ class Reference:
     """
 
     quantity: str
-    values: Sequence[float]
-    times: Sequence[float] = ()
+    values: Sequence[float] | FloatArray
+    times: Sequence[float] | FloatArray = ()
     tolerance: float | None = None
     absolute_tolerance: float | None = None
     node: str | None = None

@@ -1,0 +1,188 @@
+import datetime as dt
+import math
+import os
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import xarray as xr
+
+import bumpstop as bs
+
+
+@pytest.fixture(scope="module")
+def thrown_beam() -> bs.Response:
+    """The beam of SDNL32 with 4 elements, thrown against its stop."""
+    structure = bs.Structure(
+        nodes={"A": (0, 0, 0), "B": (0.783, 0, 0)},
+        beams=[
+            bs.Beam(
+                "AB",
+                nodes=("A", "B"),
+                elements=4,
+                theory="timoshenko",
+                material=bs.Material(young_modulus=67e9, poisson_ratio=0.0, density=2400.0),
+                section=bs.Rectangle(height=0.014, width=0.014),
+            )
+        ],
+        supports=[
+            bs.Support(nodes="all", fixed=("dx", "dz", "drx", "dry")),
+            bs.Support(nodes=("A",), fixed=("dy",)),
+        ],
+    )
+    problem = bs.Problem(
+        bs.ModalBasis.from_structure(structure, modes=3, damping=0.01),
+        laws=[bs.Stop("spring", node="B", normal=(0, 1, 0), stiffness=18e3)],
+        initial=bs.RigidRotation(about="A", rate=(0, 0, -3.8)),
+        duration=0.02,
+        sample=1e-4,
+        gauges=[bs.Gauge("strain", beam="AB", at=0.462, fibre=(0.0, 0.007))],
+        outputs=[("AB@0.462 m", "drz")],
+    )
+    return bs.simulate(problem, method="central_difference", dt=1e-5)
+
+
+@pytest.fixture
+def path(tmp_path: Path, thrown_beam: bs.Response) -> Path:
+    thrown_beam.to_netcdf(tmp_path / "response.nc", title="A beam", case="sdnl32", variant="soft")
+    return tmp_path / "response.nc"
+
+
+def test_xarray_finds_values_and_units(path: Path, thrown_beam: bs.Response) -> None:
+    with xr.open_dataset(path, engine="h5netcdf") as file:
+        np.testing.assert_array_equal(file["time"], thrown_beam.times)
+        assert file["time"].attrs["units"] == "s"
+        tip = file["displacement_B_dy"]
+        np.testing.assert_array_equal(tip, thrown_beam.sample("displacement", "B", "dy"))
+        assert tip.attrs["units"] == "m"
+        force = file["stop_force"].sel(stop="spring")
+        np.testing.assert_array_equal(force, thrown_beam.sample("stop_force", "spring"))
+        assert force.attrs["units"] == "N"
+        strain = file["strain"].sel(gauge="strain")
+        np.testing.assert_array_equal(strain, thrown_beam.sample("gauge", "strain"))
+        assert strain.attrs["units"] == "1"
+        np.testing.assert_array_equal(file["modal_velocity"], thrown_beam.motion(1))
+        np.testing.assert_array_equal(file["mode"], [1, 2, 3])
+
+
+def test_nodes_move_in_space(path: Path, thrown_beam: bs.Response) -> None:
+    with xr.open_dataset(path, engine="h5netcdf") as file:
+        assert file["displacement"].dims == ("time", "node", "dof")
+        assert file["dof"].values.tolist() == ["dy"]
+        structure = thrown_beam.problem.basis.structure
+        assert structure is not None
+        for node in structure.mesh.names:
+            found = file["displacement"].sel(node=node, dof="dy")
+            expected = thrown_beam.sample("displacement", node, "dy")
+            np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-18)
+        assert file["displacement"].sel(node="B").coords["x"].item() == 0.783
+        assert file["x"].attrs["units"] == "m"
+
+
+def test_outputs_between_nodes_have_plain_names(path: Path, thrown_beam: bs.Response) -> None:
+    with xr.open_dataset(path, engine="h5netcdf") as file:
+        turning = file["velocity_AB_0_462_m_drz"]
+        assert turning.attrs["units"] == "rad/s"
+        assert turning.attrs["node"] == "AB@0.462 m"
+        expected = thrown_beam.sample("velocity", "AB@0.462 m", "drz")
+        np.testing.assert_array_equal(turning, expected)
+
+
+def test_tables(path: Path, thrown_beam: bs.Response) -> None:
+    impacts, events = thrown_beam.impacts, thrown_beam.events
+    with xr.open_dataset(path, engine="h5netcdf") as file:
+        assert file["impact_stop"].values.tolist() == impacts["stop"].tolist()
+        for column in impacts.columns[1:]:
+            np.testing.assert_array_equal(file[f"impact_{column}"], impacts[column])
+        assert file["impact_impulse"].attrs["units"] == "N s"
+        for column in events.columns:
+            assert file[f"event_{column}"].values.tolist() == events[column].tolist()
+        assert len(impacts) == file.sizes["impact"] > 0
+
+
+def test_energies(path: Path, thrown_beam: bs.Response) -> None:
+    with xr.open_dataset(path, engine="h5netcdf") as file:
+        for name, values in thrown_beam.energy_terms().items():
+            np.testing.assert_array_equal(file[f"energy_{name}"], values)
+            assert file[f"energy_{name}"].attrs["units"] == "J"
+        shares = file["energy_stored_in_stop"].sel(stop="spring")
+        np.testing.assert_array_equal(shares, file["energy_stored"])
+
+
+def test_the_file_says_where_it_comes_from(path: Path, thrown_beam: bs.Response) -> None:
+    with xr.open_dataset(path, engine="h5netcdf") as file:
+        told = file.attrs
+    assert told["Conventions"] == "CF-1.11"
+    assert (told["title"], told["case"], told["variant"]) == ("A beam", "sdnl32", "soft")
+    assert told["bumpstop_version"] == bs.__version__
+    assert (told["method"], told["method_dt"]) == ("central_difference", 1e-5)
+    assert told["steps"] == 2000
+    assert told["energy_residual"] == thrown_beam.energy_residual
+    age = dt.datetime.now(dt.UTC) - dt.datetime.fromisoformat(told["date_created"])
+    assert dt.timedelta(seconds=-1) < age < dt.timedelta(minutes=5)
+
+
+def test_h5py_finds_dimensions_tied_to_scales(path: Path) -> None:
+    with h5py.File(path) as file:
+        displacement = file["displacement"]
+        scales = [displacement.dims[axis][0].name for axis in range(3)]
+        assert scales == ["/time", "/node", "/dof"]
+        assert file["time"].is_scale
+        assert file["displacement_B_dy"].attrs["units"] == b"m"
+        assert displacement.dtype == np.float64
+        assert file["stop"].asstr()[()].tolist() == ["spring"]
+
+
+def test_a_problem_without_stops_and_structure(tmp_path: Path) -> None:
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    start = bs.ModalState(velocity=[1.0])
+    problem = bs.Problem(basis, initial=start, duration=1.0, outputs=[("P", "dx")])
+    response = bs.simulate(problem, method="central_difference", dt=1e-3)
+    response.at([0.25, 0.5]).to_netcdf(tmp_path / "free.nc")
+    with xr.open_dataset(tmp_path / "free.nc", engine="h5netcdf") as file:
+        assert file.sizes["impact"] == file.sizes["event"] == 0
+        assert "stop" not in file.dims
+        assert "title" not in file.attrs
+        found = file["displacement_P_dx"]
+        assert found[0] == pytest.approx(1.0 / (2.0 * math.pi), rel=1e-5)
+        assert found["time"].values.tolist() == [0.25, 0.5]
+
+
+def test_a_file_that_was_there_is_replaced(tmp_path: Path, thrown_beam: bs.Response) -> None:
+    (tmp_path / "response.nc").write_text("old")
+    thrown_beam.to_netcdf(tmp_path / "response.nc")
+    assert h5py.is_hdf5(tmp_path / "response.nc")
+    assert os.listdir(tmp_path) == ["response.nc"]  # noqa: PTH208  # hidden files count too
+
+
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [
+        ("missing/response.nc", "No such file"),
+        ("file/response.nc", "Not a directory"),
+        ("", "folder"),
+    ],
+)
+def test_places_that_cannot_be_written(
+    tmp_path: Path, thrown_beam: bs.Response, name: str, what: str
+) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(bs.InputError, match=what) as caught:
+        thrown_beam.to_netcdf(tmp_path / name)
+    assert caught.value.file == str(tmp_path / name)
+    assert [found.name for found in tmp_path.rglob("*")] == ["file"]
+
+
+def test_a_failed_write_leaves_the_old_file_and_nothing_else(
+    tmp_path: Path, thrown_beam: bs.Response, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("midway")
+
+    (tmp_path / "response.nc").write_text("old")
+    monkeypatch.setattr("bumpstop.io.netcdf_format._tie", fail)
+    with pytest.raises(RuntimeError, match="midway"):
+        thrown_beam.to_netcdf(tmp_path / "response.nc")
+    assert [found.name for found in tmp_path.iterdir()] == ["response.nc"]
+    assert (tmp_path / "response.nc").read_text() == "old"

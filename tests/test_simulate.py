@@ -1,0 +1,103 @@
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+
+
+def problem(**changes: Any) -> bs.Problem:
+    basis = bs.ModalBasis.from_modes(
+        frequency=[3.0, 7.5], damping=0.01, shapes={("P", "dx"): [1.0, 0.4]}
+    )
+    stop = bs.Stop("guide", node="P", normal=(-1, 0, 0), gap=1e-3, stiffness=1e4)
+    given: dict[str, Any] = {
+        "initial": bs.ModalState(velocity=[0.2, 0.0]),
+        "laws": [stop],
+        "duration": 0.5,
+    }
+    return bs.Problem(basis, **(given | changes))
+
+
+def test_auto_is_exact_and_says_why() -> None:
+    response = bs.simulate(problem())
+    assert response.method == "exact"
+    assert "piecewise linear" in response.method_reason
+    assert dict(response.options) == {}
+
+
+def test_what_is_asked_for_is_taken() -> None:
+    response = bs.simulate(problem(), method="central_difference", dt=1e-4)
+    assert response.method == "central_difference"
+    assert response.method_reason == "asked for"
+    assert dict(response.options) == {"dt": 1e-4}
+    assert response.steps == 5000
+    assert response.solve_seconds > 0.0
+
+
+@pytest.mark.parametrize("method", ["symplectic_euler", "central_difference"])
+def test_fixed_steps_approach_the_exact_solution(method: str) -> None:
+    exact = bs.simulate(problem(), method="exact").sample("displacement", "P", "dx")
+    coarse, fine = (
+        bs.simulate(problem(), method=method, dt=dt).sample("displacement", "P", "dx")
+        for dt in (2e-4, 2e-5)
+    )
+    assert np.abs(fine - exact).max() < 0.2 * np.abs(coarse - exact).max()
+
+
+@pytest.mark.parametrize(
+    ("options", "key", "what"),
+    [
+        ({"method": "exakt"}, "method", "did you mean 'exact'"),
+        ({"method": None}, "method", "unknown method"),
+        ({"method": "exact", "dt": 1e-4}, "dt", "takes no step.*leave it out"),
+        ({"dt": 1e-4}, "dt", "takes no step"),
+        ({"method": "central_difference"}, "dt", "needs a step.*stable up to"),
+        ({"method": "symplectic_euler", "dt": 0.0}, "dt", "must be positive"),
+        ({"method": "symplectic_euler", "dt": math.nan}, "dt", "must be finite"),
+        ({"method": "symplectic_euler", "dt": "10 us"}, "dt", "must be a number"),
+        ({"method": "central_difference", "dt": 0.6}, "dt", "must not exceed the duration"),
+        ({"method": "central_difference", "dt": 1e-10}, "dt", "more than 1e.09 steps"),
+        ({"method": "central_difference", "dt": 0.1}, "dt", "above the stability limit"),
+    ],
+)
+def test_refuses(options: dict[str, Any], key: str, what: str) -> None:
+    with pytest.raises(bs.InputError, match=what) as caught:
+        bs.simulate(problem(), **options)
+    assert caught.value.key == key
+
+
+def test_the_stability_limit_is_that_of_the_closed_stop() -> None:
+    """Central difference is stable up to 2 / omega of the stiffest closed system."""
+    stiff = np.diag((2 * np.pi * np.array([3.0, 7.5])) ** 2) + 1e4 * np.outer([1, 0.4], [1, 0.4])
+    limit = 2.0 / math.sqrt(np.linalg.eigvalsh(stiff).max())
+    bs.simulate(problem(), method="central_difference", dt=0.9 * limit)
+    with pytest.raises(bs.InputError, match="stability limit"):
+        bs.simulate(problem(), method="central_difference", dt=1.05 * limit)
+
+
+def test_an_unstable_step_is_taken_when_asked_for_by_name() -> None:
+    response = bs.simulate(
+        problem(duration=0.1), method="central_difference", dt=0.03, beyond_stability_limit=True
+    )
+    assert response.steps == 4
+
+
+def test_what_cannot_be_finished_is_said() -> None:
+    """Far above the limit the motion leaves the range of numbers."""
+    with pytest.raises(bs.ComputationError, match="central_difference method could not finish"):
+        bs.simulate(
+            problem(duration=400.0),
+            method="central_difference",
+            dt=0.4,
+            beyond_stability_limit=True,
+        )
+
+
+def test_progress_is_told_between_0_and_1() -> None:
+    seen: list[float] = []
+    long = problem(duration=20.0)
+    bs.simulate(long, method="central_difference", dt=1e-5, progress=seen.append)
+    assert all(0.0 <= fraction <= 1.0 for fraction in seen)
+    assert seen == sorted(seen)
