@@ -30,7 +30,7 @@ run: $(STAMPS)/core ## Compute the validation case SDNL32 and write its report
 	@echo "Report: $(OUT)/report.html"
 
 test: lint ## Check style and types, then run all tests
-	$(CARGO) test --locked --release --quiet --package bumpstop-core
+	$(CARGO) test --locked --quiet --package bumpstop-core
 	$(BIN)/python -m pytest -n 2
 
 lint: $(STAMPS)/core $(STAMPS)/dev ## Check style and types of Python and Rust
