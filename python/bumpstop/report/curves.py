@@ -1,0 +1,84 @@
+"""Curves with no more points than can be seen, and none of those that matter missing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from bumpstop.arguments import FloatArray
+    from bumpstop.response import Response
+
+__all__ = ["MOST_POINTS", "contact_spans", "instants", "thin"]
+
+MOST_POINTS = 2000
+"""Points of one curve: more than a wide screen has columns."""
+
+
+def contact_spans(response: Response, stop: str | None = None) -> list[tuple[float, float]]:
+    """Return when each impact began and ended, in s, of one stop or of all.
+
+    An impact still under way at the end of the run ends there.
+    """
+    table = response.impact_table()
+    wanted = [stop is None or name == stop for name in table["stop"]]
+    starts = np.array(table["start"], dtype=float)[wanted]
+    ends = np.array(table["end"], dtype=float)[wanted]
+    ends[np.isnan(ends)] = response.problem.duration
+    return list(zip(starts.tolist(), ends.tolist(), strict=True))
+
+
+def instants(response: Response, extra: Iterable[float] = ()) -> FloatArray:
+    """Return the times at which a curve is looked at, ascending, in s.
+
+    They are the sample grid, every instant at which a stop closes, presses hardest or opens
+    (the kinks of the curves), and ``extra`` ones such as those of published values.
+    """
+    table = response.impact_table()
+    kinks = [*table["start"], *table["end"], *table["peak_time"]]
+    added = np.array([*kinks, *extra], dtype=float)
+    inside = (added >= 0.0) & (added <= response.problem.duration)
+    return np.union1d(response.times, added[inside])
+
+
+def thin(
+    values: FloatArray, keep: NDArray[np.bool_] | None = None, at_most: int = MOST_POINTS
+) -> NDArray[np.intp]:
+    """Return the indices of the points to draw.
+
+    The curve is cut into equal runs; the lowest and the highest point of each stay, so that
+    no peak is lost, and so do the ends.
+
+    Parameters
+    ----------
+    values
+        One curve, (n,).
+    keep
+        Points that stay whatever happens, (n,); there may be more of them than ``at_most``.
+    at_most
+        How many points to draw.
+
+    Examples
+    --------
+    >>> spike = np.zeros(10_000)
+    >>> spike[1234] = 1.0
+    >>> kept = thin(spike)
+    >>> len(kept) <= 2000, 1234 in kept
+    (True, True)
+    """
+    count = len(values)
+    if count <= at_most:
+        return np.arange(count)
+    held = np.array([0, count - 1]) if keep is None else np.flatnonzero(keep)
+    ends = np.union1d(held, [0, count - 1])
+    runs = max((at_most - len(ends)) // 2, 1)
+    starts = np.linspace(0, count, runs, endpoint=False).astype(np.intp)
+    order = np.lexsort((values, np.repeat(np.arange(runs), np.diff([*starts, count]))))
+    lowest = order[starts]
+    highest = order[np.append(starts[1:], count) - 1]
+    return np.unique(np.concatenate([ends, lowest, highest]))

@@ -1,0 +1,282 @@
+"""Figures of a response, as plain dicts in plotly's JSON form.
+
+Each function is pure: a response goes in, ``{"data": [...], "layout": {...}}`` comes out,
+with NumPy arrays as coordinates. Nothing here imports plotly; `as_plotly` turns such a dict
+into a figure for a notebook. Colours are those of light paper (see `palette`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from bumpstop.report.curves import MOST_POINTS, contact_spans, instants, thin
+from bumpstop.report.palette import LIGHT
+from bumpstop.report.plotting import (
+    MOST_BANDS,
+    Axis,
+    boundary,
+    contact_bands,
+    layout_of,
+    line_trace,
+    whole_run,
+)
+from bumpstop.report.scales import power_of_ten, scale_for
+from bumpstop.report.words import title_of, unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    import plotly.graph_objects as go
+
+    from bumpstop.arguments import FloatArray
+    from bumpstop.post.references import Reference
+    from bumpstop.response import Response
+
+__all__ = [
+    "Figure",
+    "as_plotly",
+    "energy_ledger",
+    "gap",
+    "gauge_strain",
+    "node_motion",
+    "phase_portrait",
+    "stop_force",
+]
+
+Figure: TypeAlias = dict[str, Any]
+
+LEDGER = {
+    "kinetic": ("Kinetic", "kinetic"),
+    "elastic": ("Elastic", "elastic"),
+    "stored": ("In stops", "stored"),
+    "dissipated_damping": ("Lost to damping", "damping"),
+    "dissipated_stops": ("Lost in stops", "stops"),
+}
+"""Terms of the ledger in the order of their stack: name and colour role."""
+
+
+def as_plotly(figure: Figure) -> go.Figure:
+    """Return a figure of this module as a plotly figure, to show or change.
+
+    Examples
+    --------
+    >>> as_plotly({"data": [{"type": "scatter", "y": [1, 2]}], "layout": {}}).data[0].y
+    (1, 2)
+    """
+    import plotly.graph_objects as go
+
+    return go.Figure(figure)
+
+
+def node_motion(
+    response: Response,
+    quantity: str,
+    node: str,
+    dof: str,
+    references: Sequence[Reference] = (),
+) -> Figure:
+    """Draw the displacement, velocity or acceleration of a node over time.
+
+    Parameters
+    ----------
+    response
+        What to draw.
+    quantity
+        ``"displacement"``, ``"velocity"`` or ``"acceleration"``.
+    node, dof
+        Where: a node's name or a point along a beam, and one of its dofs.
+    references
+        Published values; those of this quantity at this place are drawn on the curve.
+    """
+    axis = f"{quantity.capitalize()} {dof}"
+    return _over_time(response, (quantity, node, dof), axis, references)
+
+
+def stop_force(response: Response, stop: str, references: Sequence[Reference] = ()) -> Figure:
+    """Draw the force with which a stop pushes the structure over time."""
+    figure = _over_time(response, ("stop_force", stop), "Force", references)
+    figure["data"][0]["line"]["color"] = LIGHT["contact"]
+    figure["data"][0] |= {"fill": "tozeroy", "fillcolor": "rgba(213, 94, 0, 0.12)"}
+    return figure
+
+
+def gap(response: Response, stop: str, references: Sequence[Reference] = ()) -> Figure:
+    """Draw the distance between the structure and a stop over time, negative while pressed."""
+    return _over_time(response, ("gap", stop), "Gap", references)
+
+
+def gauge_strain(response: Response, gauge: str, references: Sequence[Reference] = ()) -> Figure:
+    """Draw the axial strain that a gauge reads over time, in microstrain."""
+    return _over_time(response, ("gauge", gauge), "Strain", references)
+
+
+def energy_ledger(response: Response) -> Figure:
+    """Stack where the energy is over time, against what was put in.
+
+    The top of the stack is kinetic + elastic + stored + dissipated; the dashed line is the
+    initial energy plus the work of the loads. They coincide where the ledger closes. Terms
+    that can be negative are drawn as lines instead of a stack.
+    """
+    times = instants(response)
+    terms = response.energy_terms(times)
+    kept = thin(terms["kinetic"])
+    time = Axis("Time", scale_for("s", times))
+    drawn = {key: terms[key][kept] for key in LEDGER if np.any(terms[key])}
+    given = (terms["total_initial"] + terms["load_work"])[kept]
+    energy = Axis("Energy", scale_for("J", given))
+    largest = max(float(np.max(np.abs(values))) for values in [*drawn.values(), given])
+    stacked = all(np.min(values) >= -1e-9 * largest for values in drawn.values())
+    x = time.scaled(times[kept])
+    traces = [
+        _ledger_term(*LEDGER[key], x, energy.scaled(values), energy, stacked)
+        for key, values in drawn.items()
+    ]
+    name = "Initial + work of loads" if np.any(terms["load_work"]) else "Initial energy"
+    total = line_trace(x, energy.scaled(given), name, "total", energy)
+    total["line"] |= {"dash": "dash", "width": 1.5}
+    residual = power_of_ten(response.energy_residual)
+    subtitle = f"The ledger closes to {residual} of the largest energy"
+    layout = layout_of("Energy", time, energy, subtitle)
+    layout["xaxis"] |= whole_run(response, time)
+    layout["legend"]["traceorder"] = "normal"
+    return {"data": [*traces, total], "layout": layout}
+
+
+def phase_portrait(response: Response, node: str, dof: str) -> Figure:
+    """Draw velocity against displacement of a node, with its impacts marked.
+
+    A dashed line shows where a stop at that node, facing along that dof, begins to push.
+    """
+    times = instants(response)
+    displacement = response.sample("displacement", node, dof, times=times)
+    velocity = response.sample("velocity", node, dof, times=times)
+    kept = np.union1d(
+        thin(displacement, at_most=MOST_POINTS // 2), thin(velocity, at_most=MOST_POINTS // 2)
+    )
+    x = Axis(f"Displacement {dof}", scale_for(unit_of("displacement", dof), displacement))
+    y = Axis(f"Velocity {dof}", scale_for(unit_of("velocity", dof), velocity))
+    clock = scale_for("s", times)
+    path = line_trace(x.scaled(displacement[kept]), y.scaled(velocity[kept]), "Path", "computed", y)
+    path["customdata"] = times[kept] * clock.factor
+    path["hovertemplate"] = (
+        f"%{{x:.5~g}} {x.scale.unit}, %{{y:.5~g}} {y.scale.unit}"
+        f"<br>at %{{customdata:.5~g}} {clock.unit}"
+    )
+    marks = []
+    for name, moments, marker in _portrait_marks(response, node):
+        at = np.searchsorted(times, moments)
+        points = {"x": x.scaled(displacement[at]), "y": y.scaled(velocity[at])}
+        told = {"name": name, "mode": "markers", "marker": marker}
+        marks.append(path | points | told | {"customdata": times[at] * clock.factor})
+    places = _contact_places(response, node, dof)
+    subtitle = "Dashed: where the stop is touched" if places else "Velocity against displacement"
+    layout = layout_of(f"Phase portrait of {node}, {dof}", x, y, subtitle)
+    layout["hovermode"] = "closest"
+    layout["shapes"] = [boundary(x.scale.factor * place) for place in places]
+    return {"data": [path, *marks], "layout": layout}
+
+
+def _portrait_marks(
+    response: Response, node: str
+) -> Iterator[tuple[str, list[float], dict[str, Any]]]:
+    """Yield name, instants and marker of what is worth a mark on a node's path."""
+    ring = {"symbol": "circle-open", "size": 13, "color": LIGHT["ink"], "line": {"width": 1.8}}
+    yield "Start", [0.0], ring
+    stops = [law.name for law in response.problem.laws if law.node == node]
+    spans = [span for stop in stops for span in contact_spans(response, stop)]
+    if not 0 < len(spans) <= MOST_BANDS:
+        return
+    starts = [start for start, _ in spans]
+    yield "Contact begins", starts, _triangle("triangle-down", "contact")
+    ends = [end for _, end in spans if end < response.problem.duration]
+    if ends:
+        yield "Contact ends", ends, _triangle("triangle-up", "stops")
+
+
+def _triangle(symbol: str, role: str) -> dict[str, Any]:
+    return {"symbol": symbol, "size": 9, "color": LIGHT[role]}
+
+
+def _over_time(
+    response: Response,
+    target: tuple[str, ...],
+    axis: str,
+    references: Sequence[Reference],
+) -> Figure:
+    published = [reference for reference in references if reference.target == target]
+    moments = np.array([time for reference in published for time in reference.times])
+    wanted = np.array([value for reference in published for value in reference.values])
+    times = instants(response, moments)
+    values = response.sample(*target, times=times)
+    kept = thin(values, keep=np.isin(times, moments))
+    time = Axis("Time", scale_for("s", times))
+    unit = unit_of(target[0], target[2] if len(target) > 2 else None)
+    across = Axis(axis, scale_for(unit, np.concatenate([values, wanted])))
+    x, y = time.scaled(times[kept]), across.scaled(values[kept])
+    data = [line_trace(x, y, "Computed", "computed", across)]
+    if moments.size:
+        found = values[np.searchsorted(times, moments)]
+        data.append(_published(time.scaled(moments), wanted, found, across))
+    layout = layout_of(title_of(target), time, across, _extremes(times, values, across, time))
+    layout["xaxis"] |= whole_run(response, time)
+    layout["showlegend"] = bool(moments.size)
+    layout["shapes"] = contact_bands(response, time.scale)
+    return {"data": data, "layout": layout}
+
+
+def _extremes(times: FloatArray, values: FloatArray, axis: Axis, clock: Axis) -> str:
+    """Return where a curve is lowest below and highest above zero, in words."""
+    found = {"lowest": int(np.argmin(values)), "highest": int(np.argmax(values))}
+    told = [
+        f"{word} {axis.scale.show(values[at])} {axis.scale.unit} "
+        f"at {clock.scale.show(times[at])} {clock.scale.unit}"
+        for word, at in found.items()
+        if values[at] * (1 if word == "highest" else -1) > 0.0
+    ]
+    text = ", ".join(told) or "zero throughout"
+    return text[0].upper() + text[1:]
+
+
+def _published(x: FloatArray, wanted: FloatArray, found: FloatArray, axis: Axis) -> dict[str, Any]:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        deviation = np.where(wanted == 0.0, np.nan, (found - wanted) / np.abs(wanted)) * 100.0
+    return {
+        "type": "scatter",
+        "mode": "markers",
+        "name": "Published",
+        "x": x,
+        "y": axis.scaled(wanted),
+        "customdata": deviation,
+        "cliponaxis": False,
+        "marker": {
+            "symbol": "circle-open",
+            "size": 9,
+            "color": LIGHT["published"],
+            "line": {"width": 1.8},
+        },
+        "hovertemplate": (f"%{{y:.5~g}} {axis.scale.unit} (computed: %{{customdata:+.2f}} %)"),
+    }
+
+
+def _ledger_term(
+    name: str, role: str, x: FloatArray, y: FloatArray, axis: Axis, stacked: bool
+) -> dict[str, Any]:
+    trace = line_trace(x, y, name, role, axis)
+    if stacked:
+        trace |= {"stackgroup": "energy", "fillcolor": LIGHT[role], "opacity": 0.9}
+        trace["line"]["width"] = 0
+    return trace
+
+
+def _contact_places(response: Response, node: str, dof: str) -> list[float]:
+    """Return the displacements along a dof at which stops facing along it touch."""
+    axis = ("dx", "dy", "dz").index(dof) if dof in ("dx", "dy", "dz") else None
+    if axis is None:
+        return []
+    return [
+        -law.gap / law.normal[axis]
+        for law in response.problem.laws
+        if law.node == node and abs(abs(law.normal[axis]) - 1.0) < 1e-12
+    ]

@@ -1,0 +1,101 @@
+"""The report: one HTML page that needs nothing but a browser."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bumpstop.errors import ComputationError
+from bumpstop.files import written_whole
+from bumpstop.report.encode import script_json
+from bumpstop.report.page import page_content
+from bumpstop.report.palette import style_rules
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping, Sequence
+
+    from jinja2 import Environment
+
+    from bumpstop.io.case import Case
+    from bumpstop.post.references import Check
+    from bumpstop.response import Response
+
+__all__ = ["write_report"]
+
+TEMPLATES = Path(__file__).parent / "templates"
+SCRIPTS = ("data", "theme", "plots", "tabs", "svg", "stage", "motion", "modes", "main")
+PLOTLY_MARK = "<!--plotly.js-->"
+
+
+def write_report(
+    case: Case,
+    responses: Mapping[str, Response],
+    checks: Mapping[str, Sequence[Check]],
+    path: str | os.PathLike[str],
+) -> None:
+    """Write the report of a case to one HTML file.
+
+    Parameters
+    ----------
+    case
+        What was run.
+    responses
+        The response of each variant, in the order of their tabs.
+    checks
+        Computed beside published values of each variant; a variant may have none.
+    path
+        File to write. A file of that name is replaced once the new one is complete.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written there.
+    """
+    from markupsafe import Markup
+
+    content, data = page_content(case, responses, checks)
+    page = (
+        _environment()
+        .get_template("report.html.j2")
+        .render(
+            content,
+            data=Markup(script_json(data)),
+            style=Markup(style_rules() + _template("report.css")),
+            script=Markup(_script()),
+        )
+    )
+    # plotly.js is most of the page: it is copied as bytes and never decoded.
+    before, after = page.split(PLOTLY_MARK)
+    with written_whole(path) as part, part.open("wb") as file:
+        file.writelines([before.encode(), _plotly_script(), after.encode()])
+
+
+def _environment() -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    return Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+    )
+
+
+def _template(name: str) -> str:
+    return (TEMPLATES / name).read_text(encoding="utf-8")
+
+
+def _script() -> str:
+    parts = "\n".join(_template(f"js/{name}.js") for name in SCRIPTS)
+    return f'(() => {{\n"use strict";\n{parts}}})();'
+
+
+def _plotly_script() -> bytes:
+    # Found without importing plotly, which takes longer than all the rest of the report.
+    spec = find_spec("plotly")
+    if spec is None or spec.origin is None:
+        raise ComputationError("the report needs plotly, which is missing: pip install plotly")
+    return (Path(spec.origin).parent / "package_data" / "plotly.min.js").read_bytes()

@@ -1,0 +1,160 @@
+"""An outline of a structure: the points at which it is drawn, and from where it is seen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from bumpstop.arguments import FloatArray
+    from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.structure import Structure
+
+__all__ = ["Outline", "outline", "view_of"]
+
+POINTS_A_BEAM = 80
+"""Points along a beam, about: the curve between its nodes is that of the shape functions."""
+
+MOST_POINTS = 2000
+"""Points of all beams together; it keeps the page small."""
+
+_AXES = ("dx", "dy", "dz")
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Points at which a structure is drawn.
+
+    Attributes
+    ----------
+    positions
+        Where they are at rest, (points, 3), in m.
+    shapes
+        How they move per unit of each modal displacement, (points, 3, modes).
+    lines
+        One ``(first point, number of points)`` a beam.
+    nodes
+        Which point a named node is.
+    schematic
+        True where the basis knows no geometry and the nodes are placed side by side.
+    """
+
+    positions: FloatArray
+    shapes: FloatArray
+    lines: list[tuple[int, int]]
+    nodes: dict[str, int]
+    schematic: bool
+
+
+def outline(basis: ModalBasis, extra: Iterable[str] = ()) -> Outline:
+    """Return the points at which the structure of a basis is drawn.
+
+    Parameters
+    ----------
+    basis
+        Modes, with or without the structure that they come from.
+    extra
+        Nodes or points along beams that must be among the points, as those of the stops.
+    """
+    if basis.structure is None:
+        return _side_by_side(basis)
+    return _from_structure(basis, basis.structure, extra)
+
+
+def view_of(positions: FloatArray, motion: FloatArray) -> FloatArray:
+    """Return the projection (2, 3) from global axes to right and up on paper.
+
+    A structure whose extent and motion lie in one global plane is seen at a right angle to
+    it, with Z up where there is Z; any other is seen from above at an angle.
+
+    Parameters
+    ----------
+    positions
+        Points, (n, 3), in m.
+    motion
+        How far anything moves along each global axis, (3,); only the ratios count.
+
+    Examples
+    --------
+    >>> view_of(np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([0.0, 1.0, 0.0]))
+    array([[1., 0., 0.],
+           [0., 1., 0.]])
+    """
+    extent = np.ptp(positions, axis=0)
+    interest = np.maximum(_relative(extent), _relative(motion))
+    # A stable sort: of axes that are equally dull, Z leaves first, then X beside Y or Z.
+    order = np.argsort(-interest, kind="stable")
+    if interest[order[2]] < 0.02:
+        right, up = sorted(order[:2])
+        return np.eye(3)[[right, up]]
+    azimuth, elevation = np.radians(-60.0), np.radians(22.0)
+    right_axis = [-np.sin(azimuth), np.cos(azimuth), 0.0]
+    up_axis = [
+        -np.cos(azimuth) * np.sin(elevation),
+        -np.sin(azimuth) * np.sin(elevation),
+        np.cos(elevation),
+    ]
+    return np.array([right_axis, up_axis])
+
+
+def _side_by_side(basis: ModalBasis) -> Outline:
+    names = list(dict.fromkeys(node for node, _ in basis.dofs))
+    shapes = np.array([_shape(basis, name) for name in names])
+    motion = np.abs(shapes).max(axis=(0, 2))
+    along = int(np.argmin(motion))
+    positions = np.zeros((len(names), 3))
+    positions[:, along] = np.arange(len(names)) * 3.0 * max(float(motion.max()), 1e-300)
+    return Outline(positions, shapes, [], {name: i for i, name in enumerate(names)}, True)
+
+
+def _from_structure(basis: ModalBasis, structure: Structure, extra: Iterable[str]) -> Outline:
+    places: list[str] = []
+    positions: list[FloatArray] = []
+    lines: list[tuple[int, int]] = []
+    budget = max(MOST_POINTS // max(len(structure.beams), 1), 2)
+    for beam in structure.beams:
+        start, end = (np.array(structure.nodes[node], dtype=float) for node in beam.nodes)
+        length = float(np.linalg.norm(end - start))
+        pieces = min(_pieces(beam.elements), budget)
+        lines.append((len(places), pieces + 1))
+        for along in np.linspace(0.0, 1.0, pieces + 1):
+            places.append(f"{beam.name}@{float(along) * length!r}")
+            positions.append(start + along * (end - start))
+    nodes = {}
+    for name in structure.nodes:
+        nodes[name] = len(places)
+        places.append(name)
+        positions.append(np.array(structure.nodes[name], dtype=float))
+    for place in extra:
+        if place not in nodes:
+            nodes[place] = len(places)
+            places.append(place)
+            positions.append(np.array(structure.position(place), dtype=float))
+    shapes = np.array([_shape(basis, place) for place in places])
+    return Outline(np.array(positions), shapes, lines, nodes, False)
+
+
+def _pieces(elements: int) -> int:
+    return elements * max(round(POINTS_A_BEAM / elements), 1)
+
+
+def _shape(basis: ModalBasis, place: str) -> FloatArray:
+    """Return how a place moves per modal displacement, (3, modes); 0 where nothing is known."""
+    rows = np.zeros((3, len(basis.omega2)))
+    for axis, dof in enumerate(_AXES):
+        try:
+            rows[axis] = basis.row(place, dof)
+        except InputError:  # a basis made by hand need not know every direction
+            continue
+    return rows
+
+
+def _relative(sizes: FloatArray) -> FloatArray:
+    largest = float(sizes.max())
+    return sizes / largest if largest > 0.0 else np.zeros(3)

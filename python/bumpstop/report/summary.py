@@ -1,0 +1,177 @@
+"""A problem in words: what was modelled, and how it was solved."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.loads import Gravity, ModalState, NodalForce, RigidRotation
+from bumpstop.report.scales import significant, with_unit
+from bumpstop.structure.section import Rectangle
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from bumpstop.laws import Stop
+    from bumpstop.modal.basis import ModalBasis
+    from bumpstop.problem import InitialState, Load, Problem
+    from bumpstop.response import Response
+    from bumpstop.structure.beam import Beam
+    from bumpstop.structure.gauge import Gauge
+    from bumpstop.structure.structure import Structure
+    from bumpstop.structure.support import Support
+
+__all__ = ["METHODS", "Row", "method_words", "model_rows"]
+
+Row = tuple[str, list[str]]
+"""A term and what there is to say about it, one line each."""
+
+_MOST_LINES = 12
+
+METHODS = {
+    "exact": (
+        "Exact",
+        "closed form between two switches of contact; every step is proved to miss none",
+    ),
+    "symplectic_euler": ("Symplectic Euler", "equal steps, first order"),
+    "central_difference": ("Central difference", "equal steps, second order"),
+}
+"""Name and nature of each method."""
+
+
+def method_words(response: Response) -> tuple[str, str]:
+    """Return a method's name, with its step where it has one, and its nature and reason."""
+    name, nature = METHODS.get(response.method, (response.method, ""))
+    step = response.options.get("dt")
+    if step is not None:
+        name = f"{name}, dt = {with_unit(step, 's')}"
+    reason = f"Chosen because {response.method_reason}." if response.method_reason else ""
+    if response.method_reason == "asked for":
+        reason = "As asked for."
+    sentence = f"{nature[0].upper()}{nature[1:]}." if nature else ""
+    return name, f"{sentence} {reason}".strip()
+
+
+def model_rows(problem: Problem) -> list[Row]:
+    """Return the model of a problem, one row a subject, those without content left out."""
+    structure = problem.basis.structure
+    rows: list[Row] = [] if structure is None else _structure_rows(structure)
+    rows += [
+        ("Basis", [_basis(problem.basis)]),
+        ("Stops", [_stop(law) for law in problem.laws]),
+        ("Loads", [_load(load) for load in problem.loads]),
+        ("Initial state", [_initial(problem.initial)]),
+        ("Gauges", [_gauge(gauge) for gauge in problem.gauges]),
+        ("Time", [_time(problem)]),
+    ]
+    return [(term, lines) for term, lines in rows if lines]
+
+
+def _structure_rows(structure: Structure) -> list[Row]:
+    masses = [f"{mass.name}: {_plain(mass.mass)} kg at {mass.node}" for mass in structure.masses]
+    return [
+        ("Nodes", _short([f"{n} at {_vector(x, 'm')}" for n, x in structure.nodes.items()])),
+        ("Beams", _short([_beam(beam, structure) for beam in structure.beams])),
+        ("Masses", _short(masses)),
+        ("Supports", _short([_support(support) for support in structure.supports])),
+    ]
+
+
+def _beam(beam: Beam, structure: Structure) -> str:
+    start, end = (np.array(structure.nodes[node], dtype=float) for node in beam.nodes)
+    material, section = beam.material, beam.section
+    shape = f"area {_plain(section.area)} m²"
+    if isinstance(section, Rectangle):
+        shape = f"{with_unit(section.height, 'm')} × {with_unit(section.width, 'm')}"
+    elements = "element" if beam.elements == 1 else "elements"
+    return (
+        f"{beam.name}: {with_unit(float(np.linalg.norm(end - start)), 'm')} from {beam.nodes[0]} "
+        f"to {beam.nodes[1]}, {beam.elements} {_theory(beam.theory)} {elements}, section {shape}, "
+        f"E = {with_unit(material.young_modulus, 'Pa')}, ν = {_plain(material.poisson_ratio)}, "
+        f"ρ = {_plain(material.density)} kg/m³"
+    )
+
+
+def _theory(name: str) -> str:
+    return "-".join(word.capitalize() for word in name.split("_"))
+
+
+def _support(support: Support) -> str:
+    where = "all nodes" if support.nodes == "all" else ", ".join(support.nodes)
+    return f"{where}: {', '.join(support.fixed)} fixed"
+
+
+def _basis(basis: ModalBasis) -> str:
+    count = len(basis.omega2)
+    rigid = int(np.count_nonzero(basis.omega2 == 0.0))
+    if rigid == count:
+        return "1 rigid mode" if count == 1 else f"{count} rigid modes"
+    modes = f"{count} {'mode' if count == 1 else 'modes'}"
+    if rigid:
+        modes += f", {rigid} of them rigid"
+    ratios = basis.damping_ratio
+    low, high = float(np.min(ratios)), float(np.max(ratios))
+    damping = _ratio(low) if low == high else f"{_ratio(low)} to {_ratio(high)}"
+    highest = with_unit(float(np.max(basis.frequencies)), "Hz")
+    if high == 0.0:
+        return f"{modes}, up to {highest}, undamped"
+    return f"{modes}, up to {highest}, {damping} of critical damping"
+
+
+def _ratio(value: float) -> str:
+    return f"{significant(value * 100.0, 3, zeros=False)} %"
+
+
+def _stop(law: Stop) -> str:
+    gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
+    damping = f", {with_unit(law.damping, 'N s/m')}" if law.damping else ", no damping"
+    return (
+        f"{law.name}: a {law.obstacle} at {law.node} that pushes along {_vector(law.normal)}, "
+        f"{gap}, {with_unit(law.stiffness, 'N/m')}{damping}"
+    )
+
+
+def _load(load: Load) -> str:
+    if isinstance(load, Gravity):
+        return f"{load.name}: gravity {_vector(load.acceleration, 'm/s²')}"
+    if isinstance(load, NodalForce):
+        force = _vector(load.force, "N") if any(load.force) else ""
+        moment = _vector(load.moment, "N m") if any(load.moment) else ""
+        return f"{load.name}: {' and '.join(filter(None, [force, moment]))} at {load.node}"
+    return load.name
+
+
+def _initial(initial: InitialState | None) -> str:
+    if initial is None:
+        return "at rest, undeformed"
+    if isinstance(initial, RigidRotation):
+        return f"turns about {initial.about} as a rigid body with {_vector(initial.rate, 'rad/s')}"
+    if isinstance(initial, ModalState):
+        given = [key for key in ("displacement", "velocity") if getattr(initial, key) is not None]
+        return f"given modal {' and '.join(given) or 'state'}"
+    return type(initial).__name__
+
+
+def _gauge(gauge: Gauge) -> str:
+    y, z = (with_unit(part, "m") for part in gauge.fibre)
+    return f"{gauge.name}: {with_unit(gauge.at, 'm')} along {gauge.beam}, fibre y = {y}, z = {z}"
+
+
+def _time(problem: Problem) -> str:
+    sample = float(np.max(np.diff(problem.times)))
+    return f"{with_unit(problem.duration, 's')}, tabulated every {with_unit(sample, 's')}"
+
+
+def _vector(components: Sequence[float], unit: str = "") -> str:
+    return f"({', '.join(map(_plain, components))}) {unit}".rstrip()
+
+
+def _plain(value: float) -> str:
+    return significant(value, 5, zeros=False)
+
+
+def _short(lines: list[str]) -> list[str]:
+    if len(lines) <= _MOST_LINES:
+        return lines
+    return [*lines[:_MOST_LINES], f"and {len(lines) - _MOST_LINES:,} more"]

@@ -1,0 +1,199 @@
+"""The tables of the report, as rows of text."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bumpstop.quantities import IMPACTS
+from bumpstop.report.published import deviation_told, tolerance_told, verdict, worst
+from bumpstop.report.scales import percent, power_of_ten, scale_for, significant, with_unit
+from bumpstop.report.summary import method_words, model_rows
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from bumpstop.modal.basis import ModalBasis
+    from bumpstop.post.references import Check
+    from bumpstop.problem import Problem
+    from bumpstop.response import Response
+
+__all__ = ["facts", "impacts", "methods", "model", "modes", "overview", "variant_notes"]
+
+MOST_IMPACTS = 50
+"""Rows of the impact table; the response's file has them all."""
+
+_IMPACT_COLUMNS = (
+    ("start", "Closes"),
+    ("end", "Opens"),
+    ("duration", "Contact"),
+    ("closing_speed", "Closing speed"),
+    ("opening_speed", "Opening speed"),
+    ("peak_force", "Peak force"),
+    ("peak_time", "Peak at"),
+    ("impulse", "Impulse"),
+    ("energy_returned", "Energy returned"),
+)
+
+
+def facts(
+    responses: Mapping[str, Response],
+    checks: Mapping[str, Sequence[Check]],
+    solve_seconds: Mapping[str, float],
+) -> list[dict[str, str]]:
+    """Return the few numbers at the head of the page: name, value and note of each."""
+    every = [check for some in checks.values() for check in some]
+    told = []
+    furthest = worst(every)
+    if furthest is not None:
+        met = sum(check.passed for check in every)
+        told.append(("Published values met", f"{met} of {len(every)}", ""))
+        deviation = deviation_told(furthest)
+        allowed = f"{tolerance_told(furthest)} allowed"
+        told.append(("Worst against its tolerance", deviation, allowed))
+    residual = max(response.energy_residual for response in responses.values())
+    told.append(("Energy residual", power_of_ten(residual), "of the largest energy"))
+    runs = len(responses)
+    seconds = with_unit(sum(solve_seconds.values()), "s", 3)
+    told.append(("Solved in", seconds, f"core time, {runs} runs" if runs > 1 else "core time"))
+    return [{"name": name, "value": value, "note": note} for name, value, note in told]
+
+
+def overview(
+    responses: Mapping[str, Response],
+    checks: Mapping[str, Sequence[Check]],
+    solve_seconds: Mapping[str, float],
+) -> dict[str, Any]:
+    """Return one row a variant: how it was solved and how it came out."""
+    columns = [
+        "Variant",
+        "Method",
+        "Steps",
+        "Events",
+        "Impacts",
+        "Peak force",
+        "Energy residual",
+        "Core time",
+        "Worst deviation",
+        "Published values",
+    ]
+    rows = []
+    for name, response in responses.items():
+        table = response.impact_table()
+        some = checks.get(name, [])
+        furthest = worst(some)
+        forces = np.array(table["peak_force"], dtype=float)
+        met = sum(check.passed for check in some)
+        rows.append(
+            {
+                "name": name,
+                "state": verdict(some).state,
+                "verdict": f"{met} of {len(some)} met" if some else "none",
+                "cells": [
+                    method_words(response)[0],
+                    f"{response.steps:,}",
+                    f"{response.event_count:,}",
+                    f"{len(table['start']):,}",
+                    with_unit(float(forces.max()), "N") if forces.size else "–",
+                    power_of_ten(response.energy_residual),
+                    with_unit(solve_seconds[name], "s", 3),
+                    "–" if furthest is None else _of_tolerance(furthest),
+                ],
+            }
+        )
+    return {"columns": columns, "rows": rows}
+
+
+def methods(responses: Mapping[str, Response]) -> list[dict[str, str]]:
+    """Return the methods used, with what they are and why they were taken."""
+    users: dict[tuple[str, str], list[str]] = {}
+    for name, response in responses.items():
+        users.setdefault(method_words(response), []).append(name)
+    alone = len(users) == 1
+    return [
+        {"name": name, "text": text, "variants": "" if alone else ", ".join(variants)}
+        for (name, text), variants in users.items()
+    ]
+
+
+def model(problems: Mapping[str, Problem]) -> list[dict[str, Any]]:
+    """Return the model, one row a subject; where variants differ, each says its own."""
+    told = {name: dict(model_rows(problem)) for name, problem in problems.items()}
+    terms = list(dict.fromkeys(term for rows in told.values() for term in rows))
+    table = []
+    for term in terms:
+        texts = {name: rows.get(term, ["none"]) for name, rows in told.items()}
+        first = next(iter(texts.values()))
+        if all(lines == first for lines in texts.values()):
+            lines = [{"variant": "", "text": text} for text in first]
+        else:
+            lines = [
+                {"variant": name, "text": text} for name, some in texts.items() for text in some
+            ]
+        table.append({"term": term, "lines": lines})
+    return table
+
+
+def variant_notes(problems: Mapping[str, Problem]) -> dict[str, str]:
+    """Return what sets each variant's stops apart, in a few words; empty where nothing does.
+
+    Only numbers of stops that all variants have are told.
+    """
+    units = {"gap": "m", "stiffness": "N/m", "damping": "N s/m"}
+    told: dict[str, list[str]] = {name: [] for name in problems}
+    laws = {name: {law.name: law for law in problem.laws} for name, problem in problems.items()}
+    common = set.intersection(*(set(some) for some in laws.values()))
+    first = next(iter(problems.values()))
+    for law in [law for law in first.laws if law.name in common]:
+        for field in fields(law):
+            values = {name: getattr(laws[name][law.name], field.name) for name in problems}
+            if field.name in units and len(set(values.values())) > 1:
+                for name, value in values.items():
+                    told[name].append(f"{field.name} {with_unit(value, units[field.name])}")
+    return {name: ", ".join(notes) for name, notes in told.items()}
+
+
+def impacts(response: Response) -> dict[str, Any]:
+    """Return the impact table, its first rows where there are many."""
+    table = response.impact_table()
+    count = len(table["start"])
+    scales = {}
+    for name, _ in _IMPACT_COLUMNS:
+        clock = name in ("start", "end", "duration", "peak_time")
+        values = [response.problem.duration] if clock else table[name]
+        scales[name] = scale_for(IMPACTS[name].units, values)
+    rows = [
+        {
+            "stop": table["stop"][row],
+            "cells": [scales[name].show(float(table[name][row]), 5) for name, _ in _IMPACT_COLUMNS],
+        }
+        for row in range(min(count, MOST_IMPACTS))
+    ]
+    columns = [f"{heading} ({scales[name].unit})" for name, heading in _IMPACT_COLUMNS]
+    more = count - len(rows)
+    return {"columns": columns, "rows": rows, "more": f"{more:,}" if more else ""}
+
+
+def modes(basis: ModalBasis) -> list[dict[str, str]]:
+    """Return frequency in Hz and damping of each mode, and a title that tells it."""
+    rows = []
+    for number, (frequency, ratio) in enumerate(
+        zip(basis.frequencies, basis.damping_ratio, strict=True), start=1
+    ):
+        hertz = float(frequency)
+        if hertz == 0.0:
+            # A ratio of critical damping says nothing of a mode without stiffness.
+            frequency_told, damping, title = "rigid", "–", "rigid"
+        else:
+            frequency_told, damping = significant(hertz, 6), percent(float(ratio))
+            title = with_unit(hertz, "Hz", 5)
+        rows.append(
+            {"frequency": frequency_told, "damping": damping, "title": f"Mode {number}: {title}"}
+        )
+    return rows
+
+
+def _of_tolerance(check: Check) -> str:
+    return f"{deviation_told(check)} of {tolerance_told(check)}"

@@ -1,0 +1,63 @@
+// The plotly figures: drawn when they come into view, in the colours and width of the moment.
+
+// A4 between its margins, in CSS pixels: what a printed page has room for.
+const PAPER_WIDTH = 660;
+const PAPER_GUTTER = 24;
+
+const plotConfig = {
+  displaylogo: false,
+  responsive: true,
+  // Named one by one: plotly's own set has one that sends the data to a server.
+  modeBarButtons: [["toImage", "zoom2d", "pan2d", "resetScale2d"]],
+};
+
+class Plots {
+  constructor(figures, themes) {
+    this.figures = figures;
+    this.themes = themes;
+    this.places = [...document.querySelectorAll("[data-figure]")];
+    this.drawn = new Set();
+    this.watcher = new IntersectionObserver((entries) => this.onSeen(entries), {
+      rootMargin: "400px",
+    });
+    this.places.forEach((place) => this.watcher.observe(place));
+  }
+
+  onSeen(entries) {
+    for (const { isIntersecting, target } of entries) {
+      if (!isIntersecting || target.offsetWidth === 0) continue;
+      this.watcher.unobserve(target);
+      this.draw(target);
+    }
+  }
+
+  draw(place) {
+    const { data, layout } = recoloured(this.figures[place.dataset.figure], this.themes);
+    const fitted = { ...layout, ...this.fit(place) };
+    if (window.matchMedia("(pointer: coarse)").matches) fitted.dragmode = false;
+    Plotly.react(place, data, fitted, plotConfig);
+    this.drawn.add(place);
+  }
+
+  fit(place) {
+    if (isPrinting()) return this.fitPaper(place);
+    return { autosize: true, font: this.font(place, place.offsetWidth < 460 ? 11 : 12.5) };
+  }
+
+  fitPaper(place) {
+    const inPairs = place.closest(".figures") && !place.closest("figure:last-child:nth-child(odd)");
+    const width = inPairs ? (PAPER_WIDTH - PAPER_GUTTER) / 2 : PAPER_WIDTH;
+    return { autosize: false, width, height: inPairs ? 230 : 270, font: this.font(place, 10) };
+  }
+
+  font(place, size) {
+    const style = getComputedStyle(document.documentElement);
+    const color = style.getPropertyValue("--ink").trim();
+    return { ...this.figures[place.dataset.figure].layout.font, color, size };
+  }
+
+  redraw() {
+    const places = isPrinting() ? this.places : [...this.drawn];
+    places.forEach((place) => this.draw(place));
+  }
+}

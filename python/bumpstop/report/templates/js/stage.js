@@ -1,0 +1,159 @@
+// A structure on paper: where its points are, how modes move them, and what holds it.
+
+const BODY_RADIUS = 13;
+const BEAM_HALF_WIDTH = 3.5;
+const SHORTEST_SPRING = 42;
+
+class Stage {
+  // `scene` has points (2 a point), shapes (2 rows a point, one column a mode), lines, supports.
+  constructor(element, scene) {
+    this.element = element;
+    this.scene = scene;
+    this.pointCount = scene.points.length / 2;
+    this.modeCount = scene.shapes.length / scene.points.length;
+    this.magnification = 1;
+    this.ranges = null;
+  }
+
+  // Displacement of a point, in m on the paper, for given modal displacements.
+  displacement(point, modal) {
+    const { shapes } = this.scene;
+    const moved = [0, 0];
+    for (let axis = 0; axis < 2; axis += 1) {
+      const row = (2 * point + axis) * this.modeCount;
+      for (let mode = 0; mode < this.modeCount; mode += 1) {
+        moved[axis] += shapes[row + mode] * modal[mode];
+      }
+    }
+    return moved;
+  }
+
+  // Say which motions must fit: an array of modal displacements.
+  reach(motions) {
+    const ranges = Array.from({ length: this.pointCount }, () => [0, 0, 0, 0]);
+    for (const modal of motions) {
+      for (let point = 0; point < this.pointCount; point += 1) {
+        const [x, y] = this.displacement(point, modal);
+        const range = ranges[point];
+        range[0] = Math.min(range[0], x);
+        range[1] = Math.max(range[1], x);
+        range[2] = Math.min(range[2], y);
+        range[3] = Math.max(range[3], y);
+      }
+    }
+    this.ranges = ranges;
+  }
+
+  // Choose scale and height for a width in pixels.
+  fit(width, tallest) {
+    const box = this.box();
+    const pad = this.padding();
+    const room = [Math.max(width - pad.left - pad.right, 40), tallest - pad.top - pad.bottom];
+    const spread = [box[1] - box[0], box[3] - box[2]];
+    const scales = [0, 1].map((axis) => (spread[axis] > 0 ? room[axis] / spread[axis] : Infinity));
+    this.scale = Math.min(...scales);
+    if (!Number.isFinite(this.scale)) this.scale = 1;
+    this.width = width;
+    this.height = Math.min(tallest, Math.max(spread[1] * this.scale + pad.top + pad.bottom, 170));
+    this.origin = [
+      pad.left + (width - pad.left - pad.right) / 2 - ((box[0] + box[1]) / 2) * this.scale,
+      pad.top + (this.height - pad.top - pad.bottom) / 2 + ((box[2] + box[3]) / 2) * this.scale,
+    ];
+    set(this.element, { width: this.width, height: this.height });
+    this.element.dataset.scale = String(this.scale * this.magnification);
+  }
+
+  box() {
+    const { points, stops = [] } = this.scene;
+    const box = [Infinity, -Infinity, Infinity, -Infinity];
+    const include = (x, y) => {
+      box[0] = Math.min(box[0], x);
+      box[1] = Math.max(box[1], x);
+      box[2] = Math.min(box[2], y);
+      box[3] = Math.max(box[3], y);
+    };
+    for (let i = 0; i < this.pointCount; i += 1) {
+      const range = this.ranges ? this.ranges[i] : [0, 0, 0, 0];
+      const [x, y] = [points[2 * i], points[2 * i + 1]];
+      include(x + this.magnification * range[0], y + this.magnification * range[2]);
+      include(x + this.magnification * range[1], y + this.magnification * range[3]);
+    }
+    for (const stop of stops) {
+      const depth = this.magnification * (stop.gap + stop.deepest);
+      include(
+        points[2 * stop.point] - depth * stop.normal[0],
+        points[2 * stop.point + 1] - depth * stop.normal[1],
+      );
+    }
+    return box;
+  }
+
+  padding() {
+    const pad = { left: 40, right: 40, top: 28, bottom: 34 };
+    const below = SHORTEST_SPRING + BODY_RADIUS + 16;
+    for (const { normal } of this.scene.stops ?? []) {
+      if (normal[0] > 0.3) pad.left = Math.max(pad.left, below);
+      if (normal[0] < -0.3) pad.right = Math.max(pad.right, below);
+      if (normal[1] < -0.3) pad.top = Math.max(pad.top, below);
+      if (normal[1] > 0.3) pad.bottom = Math.max(pad.bottom, below);
+    }
+    return pad;
+  }
+
+  // Paper coordinates in m to pixels.
+  toPixels(x, y) {
+    return [this.origin[0] + x * this.scale, this.origin[1] - y * this.scale];
+  }
+
+  rest(point) {
+    const { points } = this.scene;
+    return this.toPixels(points[2 * point], points[2 * point + 1]);
+  }
+
+  place(point, modal) {
+    const { points } = this.scene;
+    const [u, v] = this.displacement(point, modal);
+    return this.toPixels(
+      points[2 * point] + this.magnification * u,
+      points[2 * point + 1] + this.magnification * v,
+    );
+  }
+
+  linePath([first, count], modal) {
+    const points = [];
+    for (let i = first; i < first + count; i += 1) {
+      points.push(modal ? this.place(i, modal) : this.rest(i));
+    }
+    return pathThrough(points);
+  }
+
+  // The parts that do not move: the undeformed axis and the supports.
+  drawFixedParts(group) {
+    for (const line of this.scene.lines) {
+      svg("path", { class: "axis-line", d: this.linePath(line, null) }, group);
+    }
+    for (const support of this.scene.supports) this.drawSupport(group, support);
+  }
+
+  drawSupport(group, { point, kind, normal }) {
+    const [x, y] = this.rest(point);
+    // A body on a guide needs no roller to be understood.
+    if (kind === "roller" && this.scene.bodies.includes(point)) return;
+    const turn = (Math.atan2(normal[0], normal[1]) * 180) / Math.PI;
+    const place = svg("g", { transform: `translate(${x} ${y}) rotate(${turn.toFixed(1)})` }, group);
+    if (kind === "clamp") {
+      const side = x > this.width / 2 ? -1 : 1;
+      svg("path", { class: "ground", d: groundPath([0, 0], [side, 0], 24) }, place);
+      return;
+    }
+    const roller = kind === "roller";
+    const foot = roller ? 16 : 18;
+    svg("path", { class: "support", d: `M0 0l-10 ${foot}h20z` }, place);
+    if (roller) {
+      for (const shift of [-5, 5]) {
+        svg("circle", { class: "support", cx: shift, cy: foot + 3, r: 3 }, place);
+      }
+    }
+    svg("path", { class: "ground", d: groundPath([0, foot + (roller ? 6 : 0)], [0, -1], 17) }, place);
+  }
+}

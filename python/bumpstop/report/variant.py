@@ -1,0 +1,152 @@
+"""One variant on the page: its figures, its motion and its tables."""
+
+from __future__ import annotations
+
+from html import unescape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bumpstop.report import figures, tables
+from bumpstop.report.published import published
+from bumpstop.report.scene import motion_scene
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from bumpstop.post.references import Check, Reference
+    from bumpstop.problem import Problem
+    from bumpstop.report.figures import Figure
+    from bumpstop.report.outline import Outline
+    from bumpstop.response import Response
+
+__all__ = ["Variant", "watched_places"]
+
+MOST_PLACES = 4
+MOST_STOPS = 8
+"""So many watched nodes, and stops and gauges, get figures; more would be a wall of paper."""
+
+_AXES = ("dx", "dy", "dz")
+
+
+class Variant:
+    """The figures and the motion of one variant.
+
+    Parameters
+    ----------
+    identity
+        What its elements on the page are called.
+    response
+        What came out.
+    references
+        Published values; they are drawn on the figures.
+    drawing
+        Outline of the structure.
+    """
+
+    def __init__(
+        self,
+        identity: str,
+        response: Response,
+        references: Sequence[Reference],
+        drawing: Outline,
+    ) -> None:
+        self.identity = identity
+        self.response = response
+        self.places = watched_places(response.problem, references)
+        self.scene = motion_scene(response, self.places[0], drawing)
+        self.figures = {
+            f"{identity}-figure-{number}": figure
+            for number, figure in enumerate(self._drawn(references), start=1)
+        }
+
+    def content(self, checks: Sequence[Check]) -> dict[str, Any]:
+        """Return what the template fills in."""
+        main_figure, *others = (_caption(name, figure) for name, figure in self.figures.items())
+        return {
+            "id": self.identity,
+            "motion": self._motion(),
+            "main_figure": main_figure,
+            "figures": others,
+            "published": published(checks),
+            "sources": list(dict.fromkeys(check.source for check in checks if check.source)),
+            "impacts": tables.impacts(self.response) if self.response.problem.laws else None,
+        }
+
+    def plots(self) -> dict[str, Figure]:
+        """Return the figures as the page draws them: their headings stand in the captions."""
+        return {name: _untitled(figure) for name, figure in self.figures.items()}
+
+    def _drawn(self, references: Sequence[Reference]) -> Iterator[Figure]:
+        """Yield the figures, the most important one first."""
+        response, problem = self.response, self.response.problem
+        for place in self.places:
+            yield figures.node_motion(response, "displacement", *place, references)
+        for quantity in ("velocity", "acceleration"):
+            published = [r.target[1:] for r in references if r.quantity == quantity]
+            for node, dof in dict.fromkeys(published):
+                yield figures.node_motion(response, quantity, str(node), str(dof), references)
+        for law in problem.laws[:MOST_STOPS]:
+            yield figures.stop_force(response, law.name, references)
+            yield figures.gap(response, law.name, references)
+        for gauge in problem.gauges[:MOST_STOPS]:
+            yield figures.gauge_strain(response, gauge.name, references)
+        yield figures.phase_portrait(response, *self.places[0])
+        yield figures.energy_ledger(response)
+
+    def _motion(self) -> dict[str, Any]:
+        """Return what stands around the moving picture."""
+        node, dof = self.places[0]
+        stops = bool(self.response.problem.laws)
+        magnifications, paces = self.scene["magnifications"], self.scene["paces"]
+        magnified = len(magnifications["choices"]) > 1
+        scale = "Motion and gaps are magnified alike." if magnified else "Drawn to scale."
+        shade = "; shaded while a stop is closed." if stops else "."
+        return {
+            "upright": not self.scene["lines"],
+            "note": f"{scale} The curve is {dof} of {node}{shade}",
+            "label": "The structure moving against its stops" if stops else "The structure moving",
+            "watched": f"{dof} of {node}",
+            "has_stops": stops,
+            "magnifications": [f"{factor:,}" for factor in magnifications["choices"]],
+            "magnification": magnifications["first"],
+            "paces": [pace["label"] for pace in paces["choices"]],
+            "pace": paces["first"],
+        }
+
+
+def watched_places(problem: Problem, references: Sequence[Reference]) -> list[tuple[str, str]]:
+    """Return the nodes and dofs worth a figure, the most interesting one first.
+
+    Those with published displacements, those asked for as outputs, those of the stops; where
+    there are none, the one that the modes move most.
+    """
+    places = [
+        (str(reference.node), str(reference.dof))
+        for reference in references
+        if reference.quantity == "displacement"
+    ]
+    places += problem.outputs
+    places += [(law.node, _AXES[int(np.argmax(np.abs(law.normal)))]) for law in problem.laws]
+    if not places:
+        most = np.argmax(np.abs(problem.basis.shapes).sum(axis=1))
+        places = [problem.basis.dofs[int(most)]]
+    return list(dict.fromkeys(places))[:MOST_PLACES]
+
+
+def _caption(name: str, figure: Figure) -> dict[str, str]:
+    layout = figure["layout"]
+    # plotly's texts are HTML; the template escapes them again.
+    across, up = (unescape(layout[axis]["title"]["text"]) for axis in ("xaxis", "yaxis"))
+    return {
+        "id": name,
+        "title": unescape(layout["title"]["text"]),
+        "note": unescape(layout["title"].get("subtitle", {}).get("text", "")),
+        "label": f"Plot of {up} against {across}",
+    }
+
+
+def _untitled(figure: Figure) -> Figure:
+    layout = {key: value for key, value in figure["layout"].items() if key != "title"}
+    top = 40 if layout.get("showlegend", True) else 12
+    return {"data": figure["data"], "layout": layout | {"margin": layout["margin"] | {"t": top}}}
