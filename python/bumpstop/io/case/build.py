@@ -43,12 +43,13 @@ class Builder:
             of the file.
         """
         basis = self._basis(case)
-        with keyed():
+        initial = _initial(case.initial)
+        with keyed(renamed=_renamed(case)):
             return Problem(
                 basis,
                 laws=_stops(case),
                 loads=[_load(name, table) for name, table in case.loads.items()],
-                initial=_initial(case.initial),
+                initial=initial,
                 duration=case.run.duration,
                 sample=case.run.sample,
                 gauges=_gauges(case),
@@ -62,6 +63,12 @@ class Builder:
         basis = _basis(case)
         self._bases.append((case, basis))
         return basis
+
+
+def _renamed(case: CaseFile) -> dict[str, str]:
+    """Return where in the file the arguments of a problem stand."""
+    state = "initial.rotation" if case.initial and case.initial.rotation else "initial.modal"
+    return {"duration": "run.duration", "sample": "run.sample", "initial": state}
 
 
 def _basis(case: CaseFile) -> ModalBasis:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TypeAlias
 
@@ -35,13 +35,15 @@ def _part(part: str) -> str:
 
 
 @contextmanager
-def keyed(table: str = "") -> Iterator[None]:
+def keyed(table: str = "", renamed: Mapping[str, str] | None = None) -> Iterator[None]:
     """Turn the argument that a lower layer refused into a key of the file.
 
     Parameters
     ----------
     table
         The table whose keys the arguments are; empty where errors name their table already.
+    renamed
+        What arguments, or the first parts of their names, are called in the file.
 
     Examples
     --------
@@ -53,7 +55,7 @@ def keyed(table: str = "") -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        key = ".".join(part for part in (table, error.key) if part)
-        raise InputError(
-            error.what, key=_INDEX.sub(r".\1", key), value=error.value, hint=error.hint
-        ) from error
+        first, point, rest = (error.key or "").partition(".")
+        inner = f"{(renamed or {}).get(first, first)}{point}{rest}"
+        key = _INDEX.sub(r".\1", ".".join(part for part in (table, inner) if part))
+        raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error

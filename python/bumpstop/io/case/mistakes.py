@@ -21,7 +21,8 @@ __all__ = ["first_mistake"]
 def first_mistake(error: ValidationError, model: type[Table]) -> InputError:
     """Return the first thing that is wrong, and say how many more there are.
 
-    Keys that the file should not have come first: a misspelt key is also a missing one.
+    Keys that the file should not have come first and those that it lacks last: a misspelt
+    key is both.
 
     Parameters
     ----------
@@ -30,11 +31,13 @@ def first_mistake(error: ValidationError, model: type[Table]) -> InputError:
     model
         The table that it checked.
     """
-    details = error.errors(include_url=False)
-    unknown = [detail for detail in details if detail["type"] == "extra_forbidden"]
-    others = [detail for detail in details if detail["type"] != "extra_forbidden"]
-    mistakes = [_translated(detail, model) for detail in unknown + others]
+    details = sorted(error.errors(include_url=False), key=_rank)
+    mistakes = [_translated(detail, model) for detail in details]
     return _with_count(mistakes[0], len(_not_explained(mistakes)) - 1)
+
+
+def _rank(detail: ErrorDetails) -> int:
+    return {"extra_forbidden": 0, "missing": 2}.get(detail["type"], 1)
 
 
 def _not_explained(mistakes: Sequence[InputError]) -> list[InputError]:
@@ -118,6 +121,8 @@ def _place(location: KeyPath, model: type[Table]) -> _Place:
     siblings: list[str] = []
     description = None
     for part in location:
+        if part == "[key]":  # pydantic's way of saying that the name itself is wrong
+            break
         annotation = _bare(annotation)
         if _is_union(annotation):
             # pydantic puts the kind of a load into the location; it is no key of the file.

@@ -56,41 +56,40 @@ def overridden_paths(changes: dict[str, Any], above: KeyPath = ()) -> list[KeyPa
 
 def _merge(target: Any, changes: dict[str, Any], above: KeyPath) -> None:
     for name, value in changes.items():
-        *way, last = name.split(".")
-        holder, path = target, above
-        for part in way:
-            path = (*path, part)
-            holder = holder[_step(holder, part, path)]
-        _put(holder, last, value, (*path, last))
+        path = (*above, *name.split("."))
+        try:
+            _put(target, path[len(above) :], value, path)
+        except LookupError as error:
+            hint = error.args[0]
+            raise InputError("leads nowhere", key=f'"{dotted(path)}"', hint=hint) from error
 
 
-def _put(holder: Any, last: str, value: Any, path: KeyPath) -> None:
+def _put(target: Any, way: KeyPath, value: Any, path: KeyPath) -> None:
+    """Set what a way leads to; raise LookupError with a hint where it leads nowhere."""
     if path[0] in _OWN:
-        raise InputError("cannot be changed by a variant", key=_quoted(path))
+        raise InputError("cannot be changed by a variant", key=f'"{dotted(path)}"')
+    holder = target
+    for part in way[:-1]:
+        holder = holder[_step(holder, str(part))]
+    last = str(way[-1])
     if isinstance(holder, dict) and last not in holder:
         holder[last] = value  # a key that the case leaves to its default, or a wrong one
         return
-    step = _step(holder, last, path)
+    step = _step(holder, last)
     if isinstance(value, dict) and isinstance(holder[step], dict):
         _merge(holder[step], value, path)
     else:
         holder[step] = value
 
 
-def _step(holder: Any, part: str, path: KeyPath) -> Any:
+def _step(holder: Any, part: str) -> Any:
     """Return the key or index under which a part is there."""
     if isinstance(holder, dict):
         if part in holder:
             return part
-        hint = did_you_mean(part, holder)
-    elif isinstance(holder, list):
+        raise LookupError(f"the case has no {part!r} there; {did_you_mean(part, holder)}")
+    if isinstance(holder, list):
         if part.isdecimal() and int(part) < len(holder):
             return int(part)
-        hint = f"{dotted(path[:-1])} has items 0 to {len(holder) - 1}"
-    else:
-        hint = f"{dotted(path[:-1])} is not a table"
-    raise InputError("leads nowhere in this file", key=_quoted(path), hint=hint)
-
-
-def _quoted(path: KeyPath) -> str:
-    return f'"{dotted(path)}"'
+        raise LookupError(f"the list there has items 0 to {len(holder) - 1}")
+    raise LookupError(f"there is no table that could hold {part!r}")
