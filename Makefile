@@ -27,7 +27,7 @@ help: ## Say what can be made
 
 run: $(STAMPS)/core ## Compute the validation case SDNL32 and write its report
 	@$(BIN)/bumpstop run $(CASE) --out $(OUT)
-	@echo "Report: $(OUT)/report.html"
+	@echo "Open $(OUT)/report.html in a browser."
 
 test: lint ## Check style and types, then run all tests
 	$(CARGO) test --locked --quiet --package bumpstop-core

@@ -1,5 +1,6 @@
 """How Sphinx builds the documentation; its own small extensions are in ``_ext``."""
 
+import logging
 import os
 import sys
 from pathlib import Path
@@ -14,6 +15,15 @@ os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.envir
 os.environ["COLUMNS"] = "96"
 os.environ["NO_COLOR"] = "1"
 os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
+
+# The kernels that run the examples draw in SVG and report errors only.
+profile = HERE / "_build" / "ipython" / "profile_default"
+profile.mkdir(parents=True, exist_ok=True)
+(profile / "ipython_kernel_config.py").write_text(
+    'c.InlineBackend.figure_formats = {"svg"}\nc.IPKernelApp.log_level = "ERROR"\n'
+)
+os.environ["IPYTHONDIR"] = str(profile.parent)
+logging.getLogger("traitlets").setLevel(logging.WARNING)
 
 project = "bumpstop"
 author = "The bumpstop developers"
