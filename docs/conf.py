@@ -12,7 +12,7 @@ sys.path.insert(0, str(HERE / "_ext"))
 
 # The pages that run `bumpstop` must find the one that belongs to this Python.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-os.environ["COLUMNS"] = "96"
+os.environ["COLUMNS"] = "88"
 os.environ["NO_COLOR"] = "1"
 os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
 
@@ -57,6 +57,7 @@ nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 nb_execution_show_tb = True
+nb_merge_streams = True
 
 napoleon_google_docstring = False
 napoleon_use_rtype = False
