@@ -45,8 +45,10 @@ format: $(STAMPS)/dev ## Bring Python and Rust into the house style
 	$(BIN)/ruff format
 	$(CARGO) fmt
 
-bench: $(STAMPS)/core $(STAMPS)/bench ## Measure the speed beside other solvers
+# numbalsoda comes as source: pip builds it with cmake and a Fortran compiler.
+bench: $(STAMPS)/core $(STAMPS)/dev $(STAMPS)/bench ## Measure the speed beside other solvers
 	$(BIN)/python benchmarks/sdnl32.py
+	$(BIN)/python benchmarks/startup.py
 
 docs: $(STAMPS)/core $(STAMPS)/docs ## Build the documentation, running its examples
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs docs/_build/html
