@@ -72,12 +72,11 @@ impl Stop {
         }
     }
 
+    /// The push over the stiffness, so that every guard is a length.
     fn push_guard(&self, name: &'static str, sign: f64) -> Guard {
         Guard {
-            name,
-            constant: -sign * self.stiffness * self.obstacle.gap,
-            position: [-sign * self.stiffness, 0.0, 0.0],
-            velocity: [-sign * self.damping, 0.0, 0.0],
+            velocity: [-sign * self.damping / self.stiffness, 0.0, 0.0],
+            ..self.distance_guard(name, -sign)
         }
     }
 }

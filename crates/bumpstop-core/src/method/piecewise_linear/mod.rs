@@ -1,21 +1,149 @@
-//! stub
-use crate::energy::Ledger;
-use crate::error::Result;
-use crate::history::History;
-use crate::impacts::Impact;
-use crate::law::{Law, State};
-use crate::method::Observer;
+//! The exact method: closed-form phases between certified switches.
+//!
+//! While no law switches, a problem whose laws are piecewise linear is a linear system with
+//! constant coefficients. [`spectrum`] solves its eigenproblem, [`phase`] keeps the amplitudes of
+//! one stretch of time, [`signal`] turns a law's guard into a sum of exponentials, [`jet`] judges
+//! it on a cell of time, [`advance`] walks such cells to the next zero, and [`event`] switches.
+//! The only approximation is rounding.
+
+mod advance;
+mod dense;
+mod dissipation;
+mod event;
+mod jet;
+mod phase;
+mod record;
+mod secular;
+mod signal;
+mod single_mode;
+mod spectrum;
+
+pub use jet::{Jet, Verdict};
+pub use record::PhaseRecord;
+
+use super::{Observer, observe};
+use crate::error::{Error, Result};
+use crate::history::{Event, History};
+use crate::law::{Guard, Law, State};
 use crate::problem::Problem;
-#[derive(Debug, Clone)]
-pub struct PhaseRecord;
-pub fn simulate<L: Law>(_p: &Problem<L>, _o: Observer<'_>) -> Result<History<L>> { Err(crate::error::Error::Eigenvalues) }
-impl PhaseRecord {
-    pub fn cells(&self) -> usize { 0 }
-    pub fn missed_penetration(&self) -> f64 { 0.0 }
-    pub fn phase_at(&self, _t: f64) -> usize { 0 }
-    pub fn motion(&self, _p: usize, _t: f64, _q: &mut [f64], _v: &mut [f64]) {}
-    pub fn states(&self, _p: usize) -> &[State] { &[] }
-    pub fn ledger<L: Law>(&self, _p: &Problem<L>, _t: f64) -> Ledger { Ledger::default() }
-    pub fn energy_residual<L: Law>(&self, _p: &Problem<L>) -> f64 { 0.0 }
-    pub fn impacts<L: Law>(&self, _p: &Problem<L>, _l: usize) -> Vec<Impact> { vec![] }
+use advance::{Certificate, Walk};
+use event::Watch;
+use phase::{Phases, Workspace};
+use pulp::Arch;
+use spectrum::{Secular, Spectrum};
+
+/// The method's name.
+pub const NAME: &str = "exact";
+
+/// Switches at one instant after which the run is given up.
+const MOST_SWITCHES_AT_ONCE: usize = 64;
+
+/// How often the observer is asked, in phases.
+const PHASES_BETWEEN_OBSERVATIONS: usize = 64;
+
+/// Runs a problem whose laws are all piecewise linear.
+///
+/// # Errors
+/// See [`Error`].
+pub fn simulate<L: Law>(problem: &Problem<L>, observer: Observer<'_>) -> Result<History<L>> {
+    let mut run = Run::new(problem);
+    Arch::new().dispatch(|| run.advance(observer))?;
+    let record = PhaseRecord::new(run.phases, problem.duration, run.certificate);
+    Ok(History::of_phases(problem, NAME, record, run.events))
+}
+
+/// A run in progress.
+struct Run<'a, L> {
+    problem: &'a Problem<L>,
+    phases: Phases,
+    events: Vec<Event>,
+    certificate: Certificate,
+    walk: Walk,
+    watch: Watch,
+    work: Workspace,
+}
+
+impl<'a, L: Law> Run<'a, L> {
+    fn new(problem: &'a Problem<L>) -> Self {
+        Self {
+            problem,
+            phases: Phases::default(),
+            events: Vec::new(),
+            certificate: Certificate::default(),
+            walk: Walk::default(),
+            watch: Watch::default(),
+            work: Workspace::default(),
+        }
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, observer: Observer<'_>) -> Result<()> {
+        let problem = self.problem;
+        let mut states = event::initial_states(problem);
+        let (mut q, mut v) = (problem.displacement.clone(), problem.velocity.clone());
+        let mut time = 0.0;
+        let mut fired: Option<(usize, Guard)> = None;
+        let mut at_once = 0;
+        loop {
+            if self.phases.list.len() % PHASES_BETWEEN_OBSERVATIONS == 0 {
+                observe(observer, time)?;
+            }
+            self.begin(time, &states, &q, &v)?;
+            let phase = self.phases.list[self.phases.list.len() - 1];
+            self.watch.set(problem, &self.phases, phase, fired);
+            let crossing = self.walk.first_zero(
+                &self.phases,
+                phase,
+                self.watch.active(),
+                &self.watch.starts,
+                0.0,
+                problem.duration - time,
+                &mut self.certificate,
+            );
+            let Some(crossing) = crossing else {
+                return Ok(());
+            };
+            at_once = if time + crossing.time > time { 0 } else { at_once + 1 };
+            if at_once > MOST_SWITCHES_AT_ONCE {
+                return Err(Error::EndlessSwitching { time });
+            }
+            self.phases
+                .motion(phase, crossing.time, &mut self.work, &mut q, &mut v);
+            time += crossing.time;
+            let (event, guard) =
+                event::event_of(problem, &states, &self.watch, crossing.watched, time);
+            states[event.law] = event.after;
+            fired = Some((event.law, guard));
+            self.events.push(event);
+        }
+    }
+
+    /// Starts a phase; a spectrum of the secular equation that fails the phase's check is
+    /// replaced by that of the dense problem.
+    #[inline(always)]
+    fn begin(&mut self, time: f64, states: &[State], q: &[f64], v: &[f64]) -> Result<()> {
+        let spectrum = self.spectrum(states)?;
+        let begun = self.phases.begin(time, spectrum, q, v, &mut self.work);
+        match begun {
+            Err(Error::Defective { .. }) if self.phases.spectra[spectrum].is_secular => {
+                let dense = Spectrum::new(self.problem, states, Secular::Skip)?;
+                let replacement = self.phases.add_spectrum(dense);
+                self.phases.begin(time, replacement, q, v, &mut self.work)
+            }
+            begun => begun,
+        }
+    }
+
+    /// The number of the spectrum for the given states, the latest one made.
+    #[inline(always)]
+    fn spectrum(&mut self, states: &[State]) -> Result<usize> {
+        let known = self.phases.spectra.iter().rposition(|s| s.states == states);
+        match known {
+            Some(known) => Ok(known),
+            None => {
+                let fresh = Spectrum::new(self.problem, states, Secular::Try)?;
+                Ok(self.phases.add_spectrum(fresh))
+            }
+        }
+    }
 }

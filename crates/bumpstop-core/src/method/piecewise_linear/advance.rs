@@ -1,0 +1,414 @@
+//! The certified walk: from the start of a phase to the first instant at which a guard reaches
+//! zero, by steps on which the jets prove that none does.
+
+use super::jet::Verdict;
+use super::phase::{Phase, Phases};
+use super::signal::{Instant, Signal};
+use super::spectrum::{Rows, Spectrum};
+use crate::number::{Complex, LANES, Lanes, Number};
+
+/// Cells after which the exponentials are computed afresh, so that products do not pile up
+/// rounding; the signals' rounding bound counts on it.
+const CELLS_BETWEEN_ANCHORS: usize = 32;
+
+/// The smallest cell, relative to the time since the start of the phase (or to the typical
+/// period where that is longer): below it nothing can be told from rounding.
+const SMALLEST_CELL: f64 = 1e-13;
+
+/// Most iterations when a bracketed zero is refined; bisection alone needs about sixty.
+const REFINEMENTS: usize = 100;
+
+/// A guard that is watched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Start {
+    /// Positive at the start of the phase.
+    Positive,
+    /// Zero there: it has just switched, and departs.
+    Zero,
+}
+
+/// The zero that was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Crossing {
+    /// Which of the watched guards.
+    pub watched: usize,
+    /// Time since the start of the phase, in s.
+    pub time: f64,
+}
+
+/// How the walk went.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Certificate {
+    /// Cells looked at.
+    pub cells: usize,
+    /// The largest size that a guard could have had on the wrong side of zero, in the guard's
+    /// own unit.
+    pub missed: f64,
+}
+
+/// Exponentials over the length of a cell and of its half.
+#[derive(Debug, Clone, Default)]
+struct Level {
+    filled: bool,
+    factor: Rows,
+    growth: Vec<f64>,
+}
+
+/// The walker and its tables; made once a run.
+#[derive(Debug, Default)]
+pub(crate) struct Walk {
+    levels: Vec<Level>,
+    longest: f64,
+    moduli: Vec<f64>,
+    left: Rows,
+    sizes: Vec<f64>,
+    bound: Vec<f64>,
+    middle: Rows,
+    right: Rows,
+    probe: Rows,
+}
+
+/// What all steps of a walk share.
+struct Path<'a> {
+    phases: &'a Phases,
+    phase: Phase,
+    signals: &'a [Signal],
+    starts: &'a [Start],
+    from: f64,
+}
+
+/// What a cell came to.
+enum Outcome {
+    Clear,
+    Found(Crossing),
+    Halve,
+}
+
+impl Walk {
+    /// The first zero of any signal between `from` and `limit`, both measured from the start of
+    /// the phase, if there is one.
+    #[inline(always)]
+    pub(crate) fn first_zero(
+        &mut self,
+        phases: &Phases,
+        phase: Phase,
+        signals: &[Signal],
+        starts: &[Start],
+        from: f64,
+        limit: f64,
+        certificate: &mut Certificate,
+    ) -> Option<Crossing> {
+        let path = Path {
+            phases,
+            phase,
+            signals,
+            starts,
+            from,
+        };
+        let spectrum = &phases.spectra[phase.spectrum];
+        let mut level = self.prepare(spectrum, signals, from, limit);
+        let mut time = from;
+        let mut since_anchor = 0;
+        let mut successes = 0;
+        while time < limit {
+            self.fill(spectrum, level);
+            self.fill(spectrum, level + 1);
+            let width = self.width(level);
+            certificate.cells += 1;
+            match self.judge(&path, time, level, certificate) {
+                Outcome::Clear => {
+                    time += width;
+                    since_anchor += 1;
+                    std::mem::swap(&mut self.left, &mut self.right);
+                    for (size, growth) in self.sizes.iter_mut().zip(&self.levels[level].growth) {
+                        *size *= growth;
+                    }
+                    if since_anchor == CELLS_BETWEEN_ANCHORS {
+                        self.anchor(spectrum, time);
+                        since_anchor = 0;
+                    }
+                    successes += 1;
+                    if successes >= 2 && level > 0 {
+                        level -= 1;
+                        successes = 0;
+                    }
+                }
+                Outcome::Found(crossing) => {
+                    return (crossing.time < limit).then_some(crossing);
+                }
+                Outcome::Halve => {
+                    level += 1;
+                    successes = 0;
+                }
+            }
+        }
+        None
+    }
+
+    /// Sets the tables for a phase; returns the first level.
+    #[inline(always)]
+    fn prepare(
+        &mut self,
+        spectrum: &Spectrum,
+        signals: &[Signal],
+        from: f64,
+        limit: f64,
+    ) -> usize {
+        let n = spectrum.exponents();
+        for level in &mut self.levels {
+            level.filled = false;
+        }
+        if self.moduli.len() != n {
+            self.moduli = vec![0.0; n];
+            self.sizes = vec![0.0; n];
+            self.bound = vec![0.0; n];
+            for rows in [&mut self.left, &mut self.middle, &mut self.right, &mut self.probe] {
+                *rows = Rows::zeros(1, n);
+            }
+        }
+        for o in (0..n).step_by(LANES) {
+            spectrum.lambda.lanes(0, o).norm().store(&mut self.moduli[o..]);
+            self.left.put(0, o, Complex::real(Lanes::of(1.0)));
+            Lanes::of(1.0).store(&mut self.sizes[o..]);
+        }
+        if from > 0.0 {
+            self.anchor(spectrum, from);
+        }
+        let pace = signals.iter().map(|s| s.pace(spectrum)).fold(0.0f64, f64::max);
+        self.longest = limit - from;
+        let mut level = 0;
+        while self.width(level) * pace > 2.0 && level < 1000 {
+            level += 1;
+        }
+        level
+    }
+
+    /// Width of the cells of a level: each half of the one before.
+    #[inline(always)]
+    fn width(&self, level: usize) -> f64 {
+        self.longest * f64::from_bits((1023 - level.min(1022) as u64) << 52)
+    }
+
+    #[inline(always)]
+    fn fill(&mut self, spectrum: &Spectrum, level: usize) {
+        if self.levels.len() <= level {
+            self.levels.resize_with(level + 1, Level::default);
+        }
+        let width = self.width(level);
+        let n = spectrum.exponents();
+        let table = &mut self.levels[level];
+        if table.filled {
+            return;
+        }
+        if table.growth.len() != n {
+            table.factor = Rows::zeros(1, n);
+            table.growth = vec![0.0; n];
+        }
+        spectrum.exponentials(width, &mut table.factor);
+        for o in (0..n).step_by(LANES) {
+            table.factor.lanes(0, o).norm().store(&mut table.growth[o..]);
+        }
+        table.filled = true;
+    }
+
+    #[inline(always)]
+    fn anchor(&mut self, spectrum: &Spectrum, time: f64) {
+        spectrum.exponentials(time, &mut self.left);
+        for o in (0..spectrum.exponents()).step_by(LANES) {
+            self.left.lanes(0, o).norm().store(&mut self.sizes[o..]);
+        }
+    }
+
+    /// Looks at the cell of the given level that starts at `time`.
+    #[inline(always)]
+    fn judge(
+        &mut self,
+        path: &Path<'_>,
+        time: f64,
+        level: usize,
+        certificate: &mut Certificate,
+    ) -> Outcome {
+        let spectrum = &path.phases.spectra[path.phase.spectrum];
+        let width = self.width(level);
+        let radius = 0.5 * width;
+        for o in (0..spectrum.exponents()).step_by(LANES) {
+            let left = self.left.lanes(0, o);
+            self.middle.put(0, o, left * self.levels[level + 1].factor.lanes(0, o));
+            self.right.put(0, o, left * self.levels[level].factor.lanes(0, o));
+            let growth = Lanes::load(&self.levels[level].growth[o..]).max(Lanes::of(1.0));
+            (Lanes::load(&self.sizes[o..]) * growth).store(&mut self.bound[o..]);
+        }
+        let smallest = SMALLEST_CELL * (time + width).max(self.width(0).min(1.0 / spectrum.fastest));
+        let mut first: Option<Crossing> = None;
+        for (watched, signal) in path.signals.iter().enumerate() {
+            let from_zero = time == path.from && path.starts[watched] == Start::Zero;
+            let zero = if from_zero {
+                match self.depart(path, signal, time, width) {
+                    Departure::Clear => None,
+                    Departure::Inward => return Outcome::Found(Crossing { watched, time }),
+                    Departure::Unknown if width < smallest => {
+                        certificate.missed = certificate.missed.max(signal.rounding(width));
+                        None
+                    }
+                    Departure::Unknown => return Outcome::Halve,
+                }
+            } else {
+                let at = Instant {
+                    time: time + radius,
+                    exponentials: &self.middle,
+                };
+                let jet =
+                    signal.jet(path.phases, path.phase, &at, &self.bound, &self.moduli, radius);
+                certificate.missed = certificate.missed.max(jet.rounding);
+                match jet.verdict(radius) {
+                    Verdict::Clear => None,
+                    Verdict::EndDecides => self.end(path, watched, time, time + width),
+                    Verdict::Convex(curvature) => {
+                        self.valley(path, watched, time, time + width, curvature, jet.rounding)
+                    }
+                    Verdict::Open if width < smallest => self.end(path, watched, time, time + width),
+                    Verdict::Open => return Outcome::Halve,
+                }
+            };
+            if let Some(time) = zero {
+                if first.is_none_or(|f| time < f.time) {
+                    first = Some(Crossing { watched, time });
+                }
+            }
+        }
+        first.map_or(Outcome::Clear, Outcome::Found)
+    }
+
+    /// The first cell of a guard that starts at zero.
+    #[inline(always)]
+    fn depart(&mut self, path: &Path<'_>, signal: &Signal, time: f64, width: f64) -> Departure {
+        let at = Instant {
+            time,
+            exponentials: &self.left,
+        };
+        let mut jet =
+            signal.jet(path.phases, path.phase, &at, &self.bound, &self.moduli, width);
+        let full = signal.values(path.phases, path.phase, &at);
+        let noise = signal.rate_rounding(path.phases, path.phase, &self.moduli);
+        jet.slope = if full[1].abs() <= noise[0] { 0.0 } else { full[1] };
+        let curvature = if full[2].abs() <= noise[1] { 0.0 } else { full[2] };
+        if jet.slope < 0.0 || (jet.slope == 0.0 && curvature < 0.0) {
+            return Departure::Inward;
+        }
+        if jet.departs(width) {
+            Departure::Clear
+        } else {
+            Departure::Unknown
+        }
+    }
+
+    /// Decides by the sign at the right end.
+    #[inline(always)]
+    fn end(&mut self, path: &Path<'_>, watched: usize, left: f64, right: f64) -> Option<f64> {
+        let at = Instant {
+            time: right,
+            exponentials: &self.right,
+        };
+        let value = path.signals[watched].value(path.phases, path.phase, &at);
+        if value > 0.0 {
+            None
+        } else {
+            Some(self.refine(path, watched, left, right, 0.5 * (left + right)))
+        }
+    }
+
+    /// Looks for the least value of a convex guard and decides by its sign.
+    #[inline(always)]
+    fn valley(
+        &mut self,
+        path: &Path<'_>,
+        watched: usize,
+        left: f64,
+        right: f64,
+        curvature: f64,
+        rounding: f64,
+    ) -> Option<f64> {
+        let signal = &path.signals[watched];
+        let (mut low, mut high) = (left, right);
+        let mut t = 0.5 * (left + right);
+        for _ in 0..REFINEMENTS {
+            let values = self.probe(path, signal, t);
+            // A convex function lies above every such parabola.
+            let least = values[0] - 0.5 * values[1] * values[1] / curvature;
+            if least > rounding {
+                return None;
+            }
+            if values[0] < -rounding {
+                return Some(self.refine(path, watched, left, t, 0.5 * (left + t)));
+            }
+            if values[1] > 0.0 {
+                high = t;
+            } else {
+                low = t;
+            }
+            let newton = t - values[1] / values[2];
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - t).abs() <= 4.0 * f64::EPSILON * t || next == t {
+                break;
+            }
+            t = next;
+        }
+        // The least value is zero to rounding: the guard touches and turns back, unless it
+        // leaves the cell on the wrong side.
+        self.end(path, watched, left.max(low), right)
+    }
+
+    /// Value and derivatives at any time.
+    #[inline(always)]
+    fn probe(&mut self, path: &Path<'_>, signal: &Signal, t: f64) -> [f64; 3] {
+        let spectrum = &path.phases.spectra[path.phase.spectrum];
+        spectrum.exponentials(t, &mut self.probe);
+        let at = Instant {
+            time: t,
+            exponentials: &self.probe,
+        };
+        signal.values(path.phases, path.phase, &at)
+    }
+
+    /// The zero between a positive left and a negative right end, by Halley's method kept
+    /// inside the bracket.
+    #[inline(always)]
+    fn refine(
+        &mut self,
+        path: &Path<'_>,
+        watched: usize,
+        left: f64,
+        right: f64,
+        guess: f64,
+    ) -> f64 {
+        let signal = &path.signals[watched];
+        let (mut low, mut high) = (left, right);
+        let mut t = guess;
+        for _ in 0..REFINEMENTS {
+            let [value, slope, curvature] = self.probe(path, signal, t);
+            if value > 0.0 {
+                low = t;
+            } else {
+                high = t;
+            }
+            let newton = value / slope;
+            let halley = t - newton / (1.0 - 0.5 * newton * curvature / slope);
+            let next = if halley > low && halley < high { halley } else { 0.5 * (low + high) };
+            let step = (next - t).abs();
+            t = next;
+            // The error after a Halley step goes with the cube of the step.
+            if step < 1e-6 * (right - left) && halley == next || high - low <= 2.0 * f64::EPSILON * t
+            {
+                break;
+            }
+        }
+        t
+    }
+}
+
+/// How a guard leaves zero.
+enum Departure {
+    Clear,
+    Inward,
+    Unknown,
+}

@@ -1,0 +1,121 @@
+//! Spectra by the dense eigenproblem of the state matrix: any damping, any number of laws.
+
+use super::secular::Coupling;
+use super::spectrum::{Acting, Member, Rows, Spectrum};
+use crate::error::{Error, Result};
+use crate::law::{Law, State};
+use crate::number::{Complex, padded};
+use crate::problem::Problem;
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+
+/// `y'' + C y' + K y = p` of the coupled groups.
+struct Coupled {
+    stiffness: Mat<f64>,
+    damping: Mat<f64>,
+}
+
+/// Spectrum of several laws that act together.
+pub(crate) fn spectrum<L: Law>(
+    problem: &Problem<L>,
+    states: &[State],
+    acting: &[Acting],
+) -> Result<Spectrum> {
+    let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
+    let modes: Vec<usize> = (0..omega2.len())
+        .filter(|&i| acting.iter().any(|a| a.row[i] != 0.0))
+        .collect();
+    let n = modes.len();
+    let sum = |r: usize, c: usize, factor: fn(&Acting) -> f64| -> f64 {
+        (acting.iter())
+            .map(|a| factor(a) * a.row[modes[r]] * a.row[modes[c]])
+            .sum()
+    };
+    let diagonal = |values: &[f64], r: usize, c: usize| if r == c { values[modes[r]] } else { 0.0 };
+    let coupled = Coupled {
+        stiffness: Mat::from_fn(n, n, |r, c| diagonal(omega2, r, c) + sum(r, c, |a| a.stiffness)),
+        damping: Mat::from_fn(n, n, |r, c| diagonal(damping, r, c) + sum(r, c, |a| a.damping)),
+    };
+    let mut spectrum = Spectrum::empty(states);
+    spectrum.members = (modes.iter().enumerate())
+        .map(|(group, &mode)| Member {
+            mode,
+            group,
+            weight: 1.0,
+        })
+        .collect();
+    spectrum.groups = n;
+    spectrum.combinations = n;
+    spectrum.group_damping = modes.iter().map(|&i| damping[i]).collect();
+    let forces = Mat::from_fn(n, 1, |i, _| {
+        let constant: f64 = acting.iter().map(|a| a.constant * a.row[modes[i]]).sum();
+        problem.forcing.forces()[modes[i]] + constant
+    });
+    let rest = coupled.stiffness.full_piv_lu().solve(&forces);
+    spectrum.at_rest = (0..n).map(|i| rest[(i, 0)]).collect();
+    coupled.solve_into(&mut spectrum)?;
+    Ok(spectrum)
+}
+
+/// Spectrum of one law whose modes are too heavily damped for the secular path.
+pub(crate) fn set_coupled(spectrum: &mut Spectrum, coupling: &Coupling) -> Result<()> {
+    let n = coupling.omega2.len();
+    let outer = |r: usize, c: usize| coupling.phi[r] * coupling.phi[c];
+    let diagonal = |values: &[f64], r: usize, c: usize| if r == c { values[r] } else { 0.0 };
+    let coupled = Coupled {
+        stiffness: Mat::from_fn(n, n, |r, c| {
+            diagonal(&coupling.omega2, r, c) + coupling.stiffness * outer(r, c)
+        }),
+        damping: Mat::from_fn(n, n, |r, c| {
+            diagonal(&coupling.damping, r, c) + coupling.stop_damping * outer(r, c)
+        }),
+    };
+    coupled.solve_into(spectrum)
+}
+
+impl Coupled {
+    /// Eigenvalues, shapes and left vectors. Velocities are scaled by a typical frequency so
+    /// that the state matrix is balanced; left vectors are rows of the inverse of the right ones.
+    fn solve_into(&self, spectrum: &mut Spectrum) -> Result<()> {
+        let n = self.stiffness.nrows();
+        let scale = (0..n)
+            .map(|i| self.stiffness[(i, i)].abs())
+            .fold(0.0f64, f64::max)
+            .sqrt()
+            .max(f64::MIN_POSITIVE);
+        let state = Mat::from_fn(2 * n, 2 * n, |r, c| match (r < n, c < n) {
+            (true, false) if r + n == c => scale,
+            (true, _) => 0.0,
+            (false, true) => -self.stiffness[(r - n, c)] / scale,
+            (false, false) => -self.damping[(r - n, c - n)],
+        });
+        let eigen = state.eigen().map_err(|_| Error::Eigenvalues)?;
+        let right = eigen.U();
+        let inverse = right.partial_piv_lu().solve(Mat::<c64>::identity(2 * n, 2 * n));
+        let values = eigen.S().column_vector();
+        let kept: Vec<usize> = (0..2 * n).filter(|&j| values[j].im >= 0.0).collect();
+        let stride = padded(kept.len());
+        spectrum.coupled_stride = stride;
+        spectrum.lambda = Rows::zeros(1, stride);
+        spectrum.shape = Rows::zeros(n, stride);
+        spectrum.left_position = Rows::zeros(n, stride);
+        spectrum.left_velocity = Rows::zeros(n, stride);
+        for (column, &j) in kept.iter().enumerate() {
+            let value = values[j];
+            let factor = if value.im > 0.0 { 2.0 } else { 1.0 };
+            spectrum.lambda.set(0, column, complex(value));
+            for i in 0..n {
+                let left = |c: usize| complex(inverse[(j, c)]).scale(factor);
+                spectrum.shape.set(i, column, complex(right[(i, j)]));
+                spectrum.left_position.set(i, column, left(i));
+                let velocity = left(i + n).scale(1.0 / scale);
+                spectrum.left_velocity.set(i, column, velocity);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn complex(z: c64) -> Complex<f64> {
+    Complex::new(z.re, z.im)
+}
