@@ -59,7 +59,7 @@ def test_lists_become_tuples() -> None:
         ({"initial": RigidRotation(about="P", rate=(0, 0, 1))}, "initial.about", "structure"),
         ({"initial": [0.0, 1.0]}, "initial", "must be an initial state"),
         ({"outputs": [("P", "dx", "dy")]}, "outputs", "pairs of a node and a dof"),
-        ({"outputs": [("P", "dz")]}, "outputs.dof", "'dz'"),
+        ({"outputs": [("P", "dz")]}, "outputs[0].dof", "'dz'"),
     ],
 )
 def test_refuses(changes: dict[str, Any], key: str, what: str) -> None:

@@ -86,8 +86,8 @@ class Problem:
     >>> basis = ModalBasis.from_modes(frequency=[3.0], damping=[0.01], shapes={("P", "dx"): [1.0]})
     >>> stop = Stop("guide", node="P", normal=(-1, 0, 0), gap=1e-3, stiffness=1e6)
     >>> problem = Problem(basis, laws=[stop], initial=ModalState(velocity=[0.2]), duration=1.0)
-    >>> problem.sample
-    0.001
+    >>> len(problem.times)
+    1001
     """
 
     basis: ModalBasis = field(repr=False)
@@ -158,8 +158,8 @@ class Problem:
         for gauge in self.gauges:
             with _at(f"gauges.{gauge.name}"):
                 self.basis.gauge_row(gauge)
-        for node, dof in self.outputs:
-            with _at("outputs"):
+        for number, (node, dof) in enumerate(self.outputs):
+            with _at(f"outputs[{number}]"):
                 self.basis.row(node, dof)
         if self.initial is not None:
             with _at("initial"):
