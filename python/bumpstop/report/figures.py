@@ -116,23 +116,22 @@ def energy_ledger(response: Response) -> Figure:
     """Stack where the energy is over time, against what was put in.
 
     The top of the stack is kinetic + elastic + stored + dissipated; the dashed line is the
-    initial energy plus the work of the loads. They coincide where the ledger closes. Terms
-    that can be negative are drawn as lines instead of a stack.
+    initial energy plus the work of the loads. They coincide where the ledger closes.
     """
     times = instants(response)
     terms = response.energy_terms(times)
     kept = thin(terms["kinetic"])
-    time = Axis("Time", scale_for("s", times))
-    drawn = {key: terms[key][kept] for key in LEDGER if np.any(terms[key])}
     given = (terms["total_initial"] + terms["load_work"])[kept]
+    time = Axis("Time", scale_for("s", times))
     energy = Axis("Energy", scale_for("J", given))
-    largest = max(float(np.max(np.abs(values))) for values in [*drawn.values(), given])
-    stacked = all(np.min(values) >= -1e-9 * largest for values in drawn.values())
     x = time.scaled(times[kept])
-    traces = [
-        _ledger_term(*LEDGER[key], x, energy.scaled(values), energy, stacked)
-        for key, values in drawn.items()
-    ]
+    stack = []
+    for key, (name, role) in LEDGER.items():
+        if np.any(terms[key]):
+            term = line_trace(x, energy.scaled(terms[key][kept]), name, role, energy)
+            term |= {"stackgroup": "energy", "fillcolor": LIGHT[role], "opacity": 0.9}
+            term["line"]["width"] = 0
+            stack.append(term)
     name = "Initial + work of loads" if np.any(terms["load_work"]) else "Initial energy"
     total = line_trace(x, energy.scaled(given), name, "total", energy)
     total["line"] |= {"dash": "dash", "width": 1.5}
@@ -141,7 +140,7 @@ def energy_ledger(response: Response) -> Figure:
     layout = layout_of("Energy", time, energy, subtitle)
     layout["xaxis"] |= whole_run(response, time)
     layout["legend"]["traceorder"] = "normal"
-    return {"data": [*traces, total], "layout": layout}
+    return {"data": [*stack, total], "layout": layout}
 
 
 def phase_portrait(response: Response, node: str, dof: str) -> Figure:
@@ -258,16 +257,6 @@ def _published(x: FloatArray, wanted: FloatArray, found: FloatArray, axis: Axis)
         },
         "hovertemplate": (f"%{{y:.5~g}} {axis.scale.unit} (computed: %{{customdata:+.2f}} %)"),
     }
-
-
-def _ledger_term(
-    name: str, role: str, x: FloatArray, y: FloatArray, axis: Axis, stacked: bool
-) -> dict[str, Any]:
-    trace = line_trace(x, y, name, role, axis)
-    if stacked:
-        trace |= {"stackgroup": "energy", "fillcolor": LIGHT[role], "opacity": 0.9}
-        trace["line"]["width"] = 0
-    return trace
 
 
 def _contact_places(response: Response, node: str, dof: str) -> list[float]:

@@ -1,0 +1,105 @@
+"""Cases that the report is tried on: the two of the house, and small ones made here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+import bumpstop as bs
+from bumpstop.post.references import Check, Reference, check_references
+from bumpstop.report import write_report
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+@dataclass(frozen=True)
+class Run:
+    """A case with what came out of it, and its report once written."""
+
+    case: bs.Case
+    responses: dict[str, bs.Response]
+    checks: dict[str, list[Check]]
+
+    def write(self, path: Path) -> Path:
+        write_report(self.case, self.responses, self.checks, path)
+        return path
+
+
+def run(case: bs.Case) -> Run:
+    responses = {
+        name: bs.simulate(problem, method="exact")
+        for name, problem in case.problems.items()
+    }
+    checks = {
+        name: check_references(response, case.references.get(name, []))
+        for name, response in responses.items()
+    }
+    return Run(case, responses, checks)
+
+
+def made_case(
+    problems: dict[str, bs.Problem],
+    references: dict[str, list[Reference]] | None = None,
+    title: str = "A case made for a test",
+) -> bs.Case:
+    return bs.Case(
+        name="made",
+        title=title,
+        description="",
+        path=Path("made/case.toml"),
+        problems=problems,
+        references=references or {},
+        methods={},
+        method="exact",
+        method_options={},
+    )
+
+
+@pytest.fixture(scope="session")
+def sdnl32() -> Run:
+    return run(bs.load_case(CASES / "sdnl32" / "case.toml"))
+
+
+@pytest.fixture(scope="session")
+def ball() -> Run:
+    return run(bs.load_case(CASES / "ball-on-spring" / "case.toml"))
+
+
+@pytest.fixture(scope="session")
+def soft(sdnl32: Run) -> bs.Response:
+    return sdnl32.responses["soft"]
+
+
+@pytest.fixture(scope="session")
+def sdnl32_page(sdnl32: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return sdnl32.write(tmp_path_factory.mktemp("sdnl32") / "report.html")
+
+
+@pytest.fixture(scope="session")
+def ball_page(ball: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return ball.write(tmp_path_factory.mktemp("ball") / "report.html")
+
+
+@pytest.fixture(scope="session")
+def pendulum() -> bs.Problem:
+    """Two nodes of a basis without geometry, one of them with a stop that has a damper."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[5.0, 13.0],
+        damping=0.02,
+        shapes={("P", "dx"): [1.0, 0.4], ("Q", "dx"): [0.5, -0.9]},
+    )
+    stop = bs.Stop("left", node="P", normal=(1, 0, 0), gap=1e-3, stiffness=1e5, damping=20.0)
+    start = bs.ModalState(velocity=[0.3, 0.0])
+    return bs.Problem(basis, laws=[stop], initial=start, duration=0.5)
+
+
+@pytest.fixture(scope="session")
+def bouncing() -> bs.Response:
+    """A ball that bounces some hundred times, tabulated finely."""
+    basis = bs.ModalBasis.from_modes(frequency=[0.0], shapes={("P", "dy"): [1.0]})
+    floor = bs.Stop("floor", node="P", normal=(0, 1, 0), gap=1e-3, stiffness=1e6)
+    weight = bs.NodalForce("weight", node="P", force=(0, -9.81, 0))
+    problem = bs.Problem(basis, laws=[floor], loads=[weight], duration=3.0, sample=1e-4)
+    return bs.simulate(problem, method="exact")
