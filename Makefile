@@ -51,7 +51,8 @@ bench: $(STAMPS)/core $(STAMPS)/dev $(STAMPS)/bench ## Measure the speed beside 
 	$(BIN)/python benchmarks/startup.py
 
 docs: $(STAMPS)/core $(STAMPS)/docs ## Build the documentation, running its examples
-	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs docs/_build/html
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet \
+		--fresh-env --write-all docs docs/_build/html
 	@echo "Documentation: docs/_build/html/index.html"
 
 wheel: $(STAMPS)/run ## Build the wheel and try it in an environment of its own

@@ -11,14 +11,21 @@ from sphinx.application import Sphinx
 from sphinx.util.typing import ExtensionMetadata
 from sphinx.writers.html5 import HTML5Translator
 
-# LaTeX reads \frac12 as one half; docutils wants the braces.
-BARE_DIGIT = re.compile(r"(\\[td]?frac(?:\{[^{}]*\})?)\s*(\d)")
+# What docutils reads otherwise than LaTeX does, and how to say it so that both agree:
+REWRITTEN = [
+    # \frac12 is one half.
+    (re.compile(r"\\([td]?frac)\s*(\d)\s*(\d)"), r"\\\1{\2}{\3}"),
+    (re.compile(r"\\([td]?frac)\s*(\d)"), r"\\\1{\2}"),
+    # An index of an accented letter stands beside it, not below.
+    (re.compile(r"(\\(?:d?dot|hat|tilde|bar)\s*(?:\{[^{}]*\}|\\?[A-Za-z]+))(?=[_^])"), r"\1{}"),
+]
 
 
 def to_mathml(latex: str, as_block: bool = False) -> str:
     """Return a formula as MathML."""
-    braced = BARE_DIGIT.sub(r"\1{\2}", BARE_DIGIT.sub(r"\1{\2}", latex))
-    mathml: str = latex2mathml.tex2mathml(braced, as_block=as_block)
+    for pattern, replacement in REWRITTEN:
+        latex = pattern.sub(replacement, latex)
+    mathml: str = latex2mathml.tex2mathml(latex, as_block=as_block)
     return mathml
 
 
