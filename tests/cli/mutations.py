@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Iterator
 from copy import deepcopy
+from itertools import product
 from typing import Any, NamedTuple
 
 Path = tuple[str | int, ...]
@@ -30,7 +31,7 @@ OPTIONAL = {
 }
 """Keys that a case can do without, among those of the file that is spoilt."""
 
-POSITIVE = [
+POSITIVE: list[Path] = [
     ("materials", "alloy", "young_modulus"),
     ("materials", "alloy", "density"),
     ("sections", "bar", "height"),
@@ -44,7 +45,7 @@ POSITIVE = [
     ("references", 0, "tolerance"),
 ]
 
-NOT_NEGATIVE = [("basis", "damping"), ("gauges", "strain", "at")]
+NOT_NEGATIVE: list[Path] = [("basis", "damping"), ("gauges", "strain", "at")]
 
 NUMBERS = [
     *POSITIVE,
@@ -90,6 +91,10 @@ WORDS = [
     ("references", 0, "dof"),
 ]
 
+NO_NUMBERS: list[Any] = [math.nan, math.inf, "much", True, {}, [1.0], "3 kg*K"]
+NO_LISTS: list[Any] = [3, "Z", [], [[]], {}]
+NO_WORDS: list[Any] = ["bogus", "", 3, ["A"]]
+
 UNFITTING: list[tuple[Path, Any]] = [
     (("nodes", "B"), [0.783, 0.0]),
     (("nodes", "B"), [0.783, 0.0, 0.0, 0.0]),
@@ -134,20 +139,15 @@ def mutations(document: Document) -> Iterator[Mutation]:
         if path not in OPTIONAL:
             yield _removed(document, path)
         yield _misspelt(document, path)
-    for path in NUMBERS:
-        for value in (math.nan, math.inf, "much", True, {}, [1.0], "3 kg*K"):
-            yield _replaced(document, path, value)
-    for path in POSITIVE:
-        yield _replaced(document, path, 0)
-    for path in POSITIVE + NOT_NEGATIVE:
-        yield _replaced(document, path, -1)
-    for path in LISTS:
-        for value in (3, "Z", [], [[]], {}):
-            yield _replaced(document, path, value)
-    for path in WORDS:
-        for value in ("bogus", "", 3, ["A"]):
-            yield _replaced(document, path, value)
-    for path, value in UNFITTING:
+    unfitting = [
+        *product(NUMBERS, NO_NUMBERS),
+        *product(POSITIVE, [0]),
+        *product(POSITIVE + NOT_NEGATIVE, [-1]),
+        *product(LISTS, NO_LISTS),
+        *product(WORDS, NO_WORDS),
+        *UNFITTING,
+    ]
+    for path, value in unfitting:
         yield _replaced(document, path, value)
 
 
@@ -155,11 +155,11 @@ def _keys(value: Any, path: Path) -> Iterator[Path]:
     """Yield the paths of all keys, of tables too, but not names that the case chose itself."""
     if isinstance(value, dict):
         for key, item in value.items():
-            chosen = len(path) == 1 and path[0] in NAMED or path[:1] == ("variants",)
-            if not chosen:
+            if path[:1] == ("variants",):
+                continue
+            if not (len(path) == 1 and path[0] in NAMED):
                 yield (*path, key)
-            if path[:1] != ("variants",):
-                yield from _keys(item, (*path, key))
+            yield from _keys(item, (*path, key))
     elif isinstance(value, list) and value and isinstance(value[0], dict):
         yield from _keys(value[0], (*path, 0))
 

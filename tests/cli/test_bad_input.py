@@ -98,7 +98,9 @@ def test_fifty_megabytes(tmp_path: Path, refusal: Refusal) -> None:
 
 
 def test_folder(tmp_path: Path, refusal: Refusal) -> None:
-    assert f"is a folder, not a case file; did you mean '{tmp_path}/case.toml'?" in refusal(tmp_path)
+    assert f"is a folder, not a case file; did you mean '{tmp_path}/case.toml'?" in refusal(
+        tmp_path
+    )
 
 
 def test_no_file(tmp_path: Path, refusal: Refusal) -> None:

@@ -41,6 +41,7 @@ POUND_FORCE = 0.45359237 * 9.80665
         ("67 kN·mm⁻²", PRESSURE, 67e9),
         ("67 kN mm^-2", PRESSURE, 67e9),
         ("30 rad/s", RATE, 30.0),
+        ("-2 g_0", ACCELERATION, -2 * 9.80665),
         ("5 %", NUMBER, 0.05),
         ("0.05", NUMBER, 0.05),
     ],

@@ -34,5 +34,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         return run_command_line(arguments)
     finally:
+        gc.freeze()  # else Python goes through all of them once more when it exits
         if collecting:
             gc.enable()

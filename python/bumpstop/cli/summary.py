@@ -10,6 +10,7 @@ from typing import Any
 from bumpstop.cli.console import Table, print_line, print_table
 from bumpstop.cli.solve import CaseResult, VariantResult
 from bumpstop.post.references import Check
+from bumpstop.report.words import title_of
 
 __all__ = ["print_summary", "verdict"]
 
@@ -71,16 +72,12 @@ def _duration(seconds: float) -> str:
 
 
 def _tables(variant: VariantResult) -> Iterator[tuple[str, Table]]:
-    """Yield a table for each thing that is checked."""
-    for (quantity, target, units), group in groupby(variant.checks, _subject):
-        checks = list(group)
-        of = " ".join(str(part) for part in target[1:])
+    """Yield a caption and a table for each thing that is checked."""
+    for (target, units), checks in groupby(
+        variant.checks, lambda check: (check.target, check.units)
+    ):
         unit = "" if units == "1" else f", in {units}"
-        yield f"{quantity.replace('_', ' ')} of {of}{unit}", _table(checks)
-
-
-def _subject(check: Check) -> tuple[str, tuple[str | int, ...], str]:
-    return check.quantity, check.target, check.units
+        yield f"{title_of(target)}{unit}", _table(list(checks))
 
 
 def _table(checks: list[Check]) -> Table:

@@ -9,22 +9,24 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from pint import UnitRegistry
 
 __all__ = ["Dimension", "read_quantity"]
 
+# Compiled by the functions that use them, since most case files have no unit.
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
-_NUMBER_AND_UNIT = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
+_NUMBER_AND_UNIT = rf"\s*({_NUMBER})\s*(.*?)\s*"
 # Names, joined by * / · and spaces, with small exponents: nothing that pint could compute with.
-_UNIT = re.compile(r"(?:1\s*/|[^\W\d]++(?:(?:\^|\*\*)?-?[0-9]\b)?[⁻¹²³⁴]*+|[%°]|[*/·()\s])++")
-_BARE_EXPONENT = re.compile(r"(?<=[^\W\d])(-?[0-9])\b")
+_UNIT = r"(?:1\s*/|(?:_[0-9]|[^\W\d])++(?:(?:\^|\*\*)?-?[0-9]\b)?[⁻¹²³⁴]*+|[%°]|[*/·()\s])++"
+_BARE_EXPONENT = r"(?<=[^\W\d_])(-?[0-9])\b"
 _LONGEST = 60
 
 
@@ -72,7 +74,9 @@ def read_quantity(text: str, dimension: Dimension) -> float:
     bumpstop.errors.InputError: wrong unit: 'kN/m2' is a pressure, expected a stiffness like 'N/m' \
 (got '18 kN/m2')
     """
-    match = _NUMBER_AND_UNIT.fullmatch(text) if len(text) <= _LONGEST else None
+    from fractions import Fraction
+
+    match = re.fullmatch(_NUMBER_AND_UNIT, text) if len(text) <= _LONGEST else None
     if match is None:
         raise _refused(text, "is not a number with a unit", dimension)
     number, unit = match.groups()
@@ -90,11 +94,13 @@ def _in_range(text: str, exact: Fraction) -> float:
 
 
 def _factor(text: str, unit: str, dimension: Dimension) -> Fraction:
+    from fractions import Fraction
+
     registry = _registry()
     # "m2" is how people write square metres, but a name to pint.
-    written = _BARE_EXPONENT.sub(r"**\1", unit)
+    written = re.sub(_BARE_EXPONENT, r"**\1", unit)
     try:
-        if unit and not _UNIT.fullmatch(unit):
+        if unit and not re.fullmatch(_UNIT, unit):
             raise ValueError(unit)
         found = registry.parse_units(written)
     except Exception as error:  # pint lets errors of tokenize, asserts and TypeErrors through
@@ -122,6 +128,8 @@ def _wrong_unit(text: str, unit: str, found: str, dimension: Dimension) -> Input
 
 @lru_cache(maxsize=1)
 def _registry() -> UnitRegistry[Fraction]:
+    from fractions import Fraction
+
     from pint import UnitRegistry
 
     return UnitRegistry(non_int_type=Fraction)

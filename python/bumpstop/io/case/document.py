@@ -18,7 +18,10 @@ LARGEST = 10_000_000
 """Largest case file, in bytes: they are written by people."""
 
 _LARGEST_INTEGER = 2**63
-_PLACE = re.compile(r"\s*\(at (.*)\)$")
+_UNQUOTED = ("Invalid value", "Expected newline")
+"""How tomllib complains of a word or a unit without quotes."""
+
+_PLACE = r"\s*\(at (.*)\)$"
 
 
 def read_document(path: Path) -> dict[str, Any]:
@@ -87,12 +90,12 @@ def _parsed(text: str) -> dict[str, Any]:
 
 
 def _syntax_error(message: str) -> InputError:
-    place = _PLACE.search(message)
-    what = _PLACE.sub("", message)
+    place = re.search(_PLACE, message)
+    what = re.sub(_PLACE, "", message)
     return InputError(
         f"is not TOML: {what[:1].lower()}{what[1:]}",
         key=place[1] if place else None,
-        hint="texts and units need quotes, numbers do not",
+        hint="texts and units need quotes" if what.startswith(_UNQUOTED) else None,
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -15,8 +14,8 @@ __all__ = ["KeyPath", "dotted", "keyed"]
 KeyPath: TypeAlias = tuple[str | int, ...]
 """Keys of tables and indices of lists, from the top of the file down."""
 
-_INDEX = re.compile(r"\[(\d+)\]")
-_BARE = re.compile(r"[\w-]+")
+_INDEX = r"\[(\d+)\]"
+_BARE = r"[\w-]+"
 
 
 def dotted(path: KeyPath) -> str:
@@ -31,7 +30,11 @@ def dotted(path: KeyPath) -> str:
 
 
 def _part(part: str) -> str:
-    return part if _BARE.fullmatch(part) else json.dumps(part, ensure_ascii=False)
+    if re.fullmatch(_BARE, part):
+        return part
+    import json
+
+    return json.dumps(part, ensure_ascii=False)
 
 
 @contextmanager
@@ -57,5 +60,5 @@ def keyed(table: str = "", renamed: Mapping[str, str] | None = None) -> Iterator
     except InputError as error:
         first, point, rest = (error.key or "").partition(".")
         inner = f"{(renamed or {}).get(first, first)}{point}{rest}"
-        key = _INDEX.sub(r".\1", ".".join(part for part in (table, inner) if part))
+        key = re.sub(_INDEX, r".\1", ".".join(part for part in (table, inner) if part))
         raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error

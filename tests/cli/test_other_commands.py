@@ -1,0 +1,136 @@
+"""``bumpstop modes``, ``verify``, ``report`` and ``schema``."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from bumpstop.cli import main
+from bumpstop.io.case import load_case
+
+CASES = Path(__file__).parents[2] / "cases"
+SDNL32 = CASES / "sdnl32" / "case.toml"
+
+
+def test_modes(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["modes", str(SDNL32)]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["soft,", "stiff"] in lines
+    assert ["1", "0", "1"] in lines
+    assert ["2", "85.4068", "1"] in lines
+
+
+def test_modes_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["modes", str(SDNL32), "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    basis = load_case(SDNL32).problems["soft"].basis
+    assert record["case"] == "sdnl32"
+    assert record["frequencies"] == basis.frequencies.tolist()
+    assert record["damping"] == [0.01] * 10
+    assert record["variants"]["stiff"]["frequencies"] == record["frequencies"]
+
+
+def test_modes_of_variants_with_other_structures(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(SDNL32.read_text() + "\n[variants.light]\nmaterials.alloy.density = 600\n")
+    assert main(["modes", str(file)]) == 0
+    output = capsys.readouterr().out
+    assert "\nsoft, stiff\n" in output
+    assert "\nlight\n" in output
+    assert " 85.4068 " in output
+    assert " 170.814 " in output
+
+
+@pytest.fixture
+def cases(tmp_path: Path) -> Path:
+    """Return a folder of two cases, the second with a reference that nothing can meet."""
+    for name in ("good", "wrong"):
+        text = SDNL32.read_text().replace('method = "exact"', 'method = "symplectic_euler"')
+        if name == "wrong":
+            text = text.replace("-2.66e-3, -4.33e-3", "-2.66e-3, +4.33e-3")
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "case.toml").write_text(text)
+    (tmp_path / "notes").mkdir()
+    return tmp_path
+
+
+def test_verify(cases: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["verify", "--cases", str(cases)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split()[:3] == ["case", "variant", "method"]
+    assert [line.split()[:2] for line in lines[1:5]] == [
+        ["good", "soft"],
+        ["good", "stiff"],
+        ["wrong", "soft"],
+        ["wrong", "stiff"],
+    ]
+    assert lines[1].endswith("all 12 checks passed")
+    assert lines[3].endswith("1 of 12 checks FAILED")
+    assert lines[-1] == "FAILED"
+
+
+def test_verify_by_name(cases: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["verify", "good", "--cases", str(cases), "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["passed"] is True
+    assert [case["case"] for case in record["cases"]] == ["good"]
+    assert len(record["cases"][0]["variants"]) == 2
+
+
+def test_verify_takes_the_folder_named_cases(
+    cases: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cases.rename(cases.parent / "cases")
+    monkeypatch.chdir(cases.parent)
+    assert main(["verify", "good"]) == 0
+    assert capsys.readouterr().out.endswith("\npassed\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["god"], "did you mean 'good'?"),
+        (["--cases", "nowhere"], "--cases: no such folder (got 'nowhere')"),
+        (["--cases", "notes"], "--cases: holds no cases (got 'notes')"),
+        (["good", "--method", "rk4"], "--method: unknown method"),
+    ],
+)
+def test_verify_refuses(
+    arguments: list[str],
+    says: str,
+    cases: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(cases)
+    assert (
+        main(["verify", *(["--cases", "."] if "--cases" not in arguments else []), *arguments]) == 2
+    )
+    output, error = capsys.readouterr()
+    assert output == ""
+    assert says in error
+    assert error.count("\n") == 1
+
+
+def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["report", str(SDNL32), "--method", "symplectic_euler", "--out", str(tmp_path)]
+    assert main(arguments) == 0
+    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
+    assert "SDNL32" in (tmp_path / "report.html").read_text()
+    assert capsys.readouterr().out == f"written to {tmp_path / 'report.html'}\n"
+
+
+def test_schema(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema"]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
+    assert schema["required"] == ["nodes", "basis", "run"]
+    stop = schema["$defs"]["StopTable"]
+    assert stop["required"] == ["node", "normal", "stiffness"]
+    assert stop["properties"]["stiffness"]["description"] == "Contact stiffness, in N/m"
+    for table in [schema, *schema["$defs"].values()]:
+        assert table["additionalProperties"] is False
+        for key, field in table["properties"].items():
+            assert "description" in field or "$ref" in field, key

@@ -1,0 +1,285 @@
+"""``bumpstop run``: what it prints, writes and returns."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import bumpstop as bs
+from bumpstop.cli import main
+from bumpstop.errors import ComputationError
+from bumpstop.io.case import load_case
+
+SDNL32 = Path(__file__).parents[2] / "cases" / "sdnl32" / "case.toml"
+RUN = ["run", str(SDNL32), "--method", "symplectic_euler"]
+
+Output = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def call(capsys: pytest.CaptureFixture[str]) -> Output:
+    """Run a command and return its status, output and error output."""
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        status = main(arguments)
+        return status, *capsys.readouterr()
+
+    return run
+
+
+@pytest.fixture
+def strict(tmp_path: Path) -> Path:
+    """Return a case whose tolerance for the second variant is too small to be met."""
+    file = tmp_path / "strict" / "case.toml"
+    file.parent.mkdir()
+    file.write_text(SDNL32.read_text().replace("tolerance = 0.012", "tolerance = 1e-6"))
+    return file
+
+
+def test_summary(call: Output) -> None:
+    status, output, error = call(*RUN)
+    assert (status, error) == (0, "")
+    lines = output.splitlines()
+    assert lines[0] == load_case(SDNL32).title
+    assert "\x1b" not in output
+    assert "soft" in lines
+    assert "  Displacement dy of B, in m" in lines
+    (row,) = [line.split() for line in lines if line.split()[:2] == ["0.003", "-0.00492"]]
+    assert row[2].startswith("-0.00495")
+    assert row[3:] == ["0.67", "%", "0.8", "%", "yes"]
+    assert output.count("all 12 checks passed") == 2
+    assert output.count("method symplectic_euler, 2,000 steps, 1 event, 1 impact") == 2
+
+
+def test_columns_are_aligned(call: Output) -> None:
+    _, output, _ = call(*RUN)
+    tables = output.split("soft")[1].split("stiff")
+    for table in tables:
+        rows = [line for line in table.splitlines() if line.endswith(("yes", "ok"))]
+        assert len(rows) == 13
+        assert len({len(row) for row in rows}) == 1
+
+
+def test_json(call: Output) -> None:
+    status, output, error = call(*RUN, "--json")
+    record = json.loads(output)
+    assert (status, error) == (0, "")
+    assert output.count("\n") == 1
+    assert record.keys() == {"case", "variants", "passed"}
+    assert (record["case"], record["passed"]) == ("sdnl32", True)
+    assert [variant["name"] for variant in record["variants"]] == ["soft", "stiff"]
+    for variant in record["variants"]:
+        assert variant.keys() == {
+            "name",
+            "method",
+            "steps",
+            "events",
+            "impacts",
+            "energy_residual",
+            "solve_seconds",
+            "references",
+            "passed",
+        }
+        assert (variant["method"], variant["passed"]) == ("symplectic_euler", True)
+        assert (variant["steps"], variant["events"], variant["impacts"]) == (2000, 1, 1)
+        assert 0 < variant["solve_seconds"] < 1
+        assert len(variant["references"]) == 12
+    check = record["variants"][0]["references"][2]
+    assert check.keys() == {
+        "quantity",
+        "time",
+        "value",
+        "reference",
+        "deviation",
+        "tolerance",
+        "passed",
+    }
+    assert (check["quantity"], check["time"], check["reference"]) == (
+        "displacement",
+        3e-3,
+        -4.92e-3,
+    )
+    assert check["deviation"] == pytest.approx(abs(check["value"] / -4.92e-3 - 1), rel=1e-9)
+
+
+def test_a_failed_check_is_status_1(call: Output, strict: Path) -> None:
+    status, output, error = call("run", str(strict), "--method", "symplectic_euler")
+    assert (status, error) == (1, "")
+    assert "all 12 checks passed" in output
+    assert "12 of 12 checks FAILED" in output
+    assert output.count(" NO\n") == 12
+    status, output, _ = call("run", str(strict), "--method", "symplectic_euler", "--json")
+    record = json.loads(output)
+    assert status == 1
+    assert [variant["passed"] for variant in record["variants"]] == [True, False]
+    assert record["passed"] is False
+
+
+def test_what_is_not_a_number_is_null_in_json(call: Output, tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    text = SDNL32.read_text()
+    missed = 'quantity = "peak_force"\nstop = "spring"\nimpact = 7\nvalues = [1]\ntolerance = 1\n'
+    file.write_text(text + "\n[[references]]\n" + missed)
+    status, output, _ = call("run", str(file), "--method", "symplectic_euler", "--json")
+    check = json.loads(output, parse_constant=pytest.fail)["variants"][0]["references"][-1]
+    assert status == 1
+    assert (check["value"], check["deviation"], check["passed"]) == (None, None, False)
+
+
+def test_outputs(call: Output, tmp_path: Path) -> None:
+    out = tmp_path / "deep" / "out"
+    status, output, _ = call(*RUN, "--out", str(out))
+    files = {str(file.relative_to(out)) for file in out.rglob("*") if file.is_file()}
+    assert status == 0
+    assert files == {"soft/response.nc", "stiff/response.nc", "report.html"}
+    assert output.endswith(f"written to {out}\n")
+    assert list(out.parent.iterdir()) == [out]
+
+
+def test_outputs_replace_older_ones_and_leave_the_rest(call: Output, tmp_path: Path) -> None:
+    (tmp_path / "soft").mkdir()
+    (tmp_path / "soft" / "response.nc").write_text("old")
+    (tmp_path / "soft" / "notes.txt").write_text("mine")
+    assert call(*RUN, "--out", str(tmp_path), "--no-report")[0] == 0
+    assert (tmp_path / "soft" / "response.nc").read_bytes()[:4] == b"\x89HDF"
+    assert (tmp_path / "soft" / "notes.txt").read_text() == "mine"
+    assert not (tmp_path / "report.html").exists()
+
+
+def test_without_out_nothing_is_written(
+    call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert call(*RUN)[0] == 0
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("below", [".", "below"])
+def test_out_that_is_a_file(below: str, call: Output, tmp_path: Path) -> None:
+    taken = tmp_path / "taken"
+    taken.write_text("mine")
+    status, output, error = call(*RUN, "--out", str(taken / below))
+    assert (status, output) == (2, "")
+    assert error.startswith("error: --out: cannot be written to: ")
+    assert error.count("\n") == 1
+    assert taken.read_text() == "mine"
+
+
+def test_out_that_turns_out_unwritable(call: Output) -> None:
+    status, output, error = call(*RUN, "--out", "/proc/self/out/deep")
+    assert (status, output) == (2, "")
+    assert error.startswith("error: --out: cannot be written to: ")
+    assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize("existing", [False, True])
+def test_a_disk_that_fills_up_leaves_nothing(
+    existing: bool, call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "new" / "out"
+    if existing:
+        out.mkdir(parents=True)
+    before = sorted(tmp_path.rglob("*"))
+    write = bs.Response.to_netcdf
+
+    def fill_up(response: bs.Response, path: Path, **words: Any) -> None:
+        write(response, path, **words)
+        if path.parent.name == "stiff":
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(bs.Response, "to_netcdf", fill_up)
+    status, _, error = call(*RUN, "--out", str(out))
+    assert status == 2
+    assert "No space left on device" in error
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_what_could_not_be_computed_is_status_3(
+    call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def give_up(*_arguments: object, **_options: object) -> None:
+        raise ComputationError("it diverged")
+
+    monkeypatch.setattr("bumpstop.cli.solve.simulate", give_up)
+    status, output, error = call(*RUN, "--out", str(tmp_path / "out"))
+    assert (status, output) == (3, "")
+    assert error == f"error: {SDNL32}: variant soft: it diverged\n"
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_mistake_of_our_own_is_one_line_and_status_3(
+    call: Output, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stumble(*_arguments: object, **_options: object) -> None:
+        raise ZeroDivisionError("by zero\nindeed")
+
+    monkeypatch.setattr("bumpstop.cli.solve.simulate", stumble)
+    status, output, error = call(*RUN)
+    assert (status, output) == (3, "")
+    assert "ZeroDivisionError: by zero indeed" in error
+    assert "--debug" in error
+    assert error.count("\n") == 1
+
+
+def test_debug_shows_where(call: Output) -> None:
+    status, output, error = call("run", "nowhere.toml", "--debug")
+    assert (status, output) == (2, "")
+    assert error.startswith("Traceback")
+    assert error.endswith("error: nowhere.toml: no such file; check the path\n")
+
+
+def test_ctrl_c(call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_arguments: object, **_options: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("bumpstop.cli.outputs._write_report", interrupt)
+    status, _, error = call(*RUN, "--out", str(tmp_path / "out"))
+    assert (status, error) == (130, "interrupted\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["run"], "Missing argument 'CASE.toml'"),
+        (["run", str(SDNL32), "--mehtod", "exact"], "No such option: --mehtod"),
+        (["run", str(SDNL32), "--method"], "Option '--method' requires an argument"),
+        (["run", str(SDNL32), "--method", "rk4"], "--method: unknown method (got 'rk4'); known:"),
+        (["run", str(SDNL32), "--method", "exakt"], "did you mean 'exact'?"),
+        (["rnu", str(SDNL32)], "No such command 'rnu'"),
+        (["run", str(SDNL32), "more"], "unexpected extra argument"),
+    ],
+)
+def test_wrong_arguments(arguments: list[str], says: str, call: Output) -> None:
+    status, output, error = call(*arguments)
+    assert (status, output) == (2, "")
+    assert error.startswith("error: ")
+    assert says in error
+    assert error.count("\n") == 1
+
+
+def test_a_step_above_the_stability_limit(call: Output, tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(SDNL32.read_text().replace("dt = 1e-5", "dt = 1e-3"))
+    status, _, error = call("run", str(file), "--method", "central_difference")
+    assert status == 2
+    assert error.startswith(f"error: {file}: run.dt: is above the stability limit of ")
+
+
+def test_the_reader_of_a_pipe_may_leave(tmp_path: Path) -> None:
+    script = f"{sys.executable} -m bumpstop {' '.join(RUN)} 2>{tmp_path}/error | head -1"
+    done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout == f"{load_case(SDNL32).title}\n"
+    assert (tmp_path / "error").read_text() == ""
+
+
+def test_version_and_help(call: Output) -> None:
+    assert call("--version") == (0, f"bumpstop {bs.__version__}\n", "")
+    for arguments in ([], ["--help"]):
+        status, output, _ = call(*arguments)
+        assert status == 0
+        assert all(word in output for word in ("run", "modes", "verify", "report", "schema"))
