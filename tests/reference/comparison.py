@@ -78,7 +78,7 @@ def compare(problem: StopProblem) -> Comparison:
     if usable.size < times.size:
         problem = problem.but(duration=float(usable[-1]) * (1 + 1e-9))
         solution = PreciseSolution(problem)
-    return measured(problem, solution, usable, float(grown[: usable.size].max()))
+    return measured(problem, solution, usable, max(1.0, float(grown[: usable.size].max())))
 
 
 def measured(

@@ -69,7 +69,7 @@ def test_every_term_of_the_ledger_is_the_integral_of_its_power(stop_damping: flo
     beam = sdnl32.clean(45e3)
     problem = beam.but(stop_damping=stop_damping, force=-40.0 * beam.row, duration=0.03)
     solution, history = PreciseSolution(problem), problem.solve()
-    assert len(solution.events) > 2
+    assert len(solution.events) > 1
     for time in (0.004, 0.0213, 0.03):
         times: Array = np.array([time])
         found = {name: float(np.ravel(term)[0]) for name, term in history.energy(times).items()}
