@@ -29,8 +29,7 @@ class Run:
 
 def run(case: bs.Case) -> Run:
     responses = {
-        name: bs.simulate(problem, method="exact")
-        for name, problem in case.problems.items()
+        name: bs.simulate(problem, method="exact") for name, problem in case.problems.items()
     }
     checks = {
         name: check_references(response, case.references.get(name, []))

@@ -227,12 +227,13 @@ def _over_time(
 
 def _extremes(times: FloatArray, values: FloatArray, axis: Axis, clock: Axis) -> str:
     """Return where a curve is lowest below and highest above zero, in words."""
+    rounding = 1e-12 * float(np.max(np.abs(values)))
     found = {"lowest": int(np.argmin(values)), "highest": int(np.argmax(values))}
     told = [
         f"{word} {axis.scale.show(values[at])} {axis.scale.unit} "
         f"at {clock.scale.show(times[at])} {clock.scale.unit}"
         for word, at in found.items()
-        if values[at] * (1 if word == "highest" else -1) > 0.0
+        if values[at] * (1 if word == "highest" else -1) > rounding
     ]
     text = ", ".join(told) or "zero throughout"
     return text[0].upper() + text[1:]

@@ -121,6 +121,11 @@ class Motion {
     return this.between(this.scene.forces, stop * (this.last + 1), 1, frame);
   }
 
+  // Whether a force is more than rounding.
+  pushes(force) {
+    return force > 1e-9 * this.largestForce;
+  }
+
   seek(frame) {
     this.frame = frame;
     this.show();
@@ -248,7 +253,7 @@ class Motion {
     const along = u * stop.normal[0] + v * stop.normal[1];
     const squared = stop.normal[0] ** 2 + stop.normal[1] ** 2;
     const distance = stop.gap + along / squared;
-    const closed = force > 0;
+    const closed = this.pushes(force);
     const pressed = closed ? Math.max(0, -distance) * drawn.pixels : 0;
     const at = drawn.away(drawn.surface + pressed);
     const across = [-drawn.normal[1] * 14, drawn.normal[0] * 14];
@@ -314,7 +319,7 @@ class Motion {
     for (let frame = 0; frame <= this.last + 1; frame += 1) {
       const closed =
         frame <= this.last &&
-        this.scene.stops.some((_, stop) => this.scene.forces[stop * (this.last + 1) + frame] > 0);
+        this.scene.stops.some((_, stop) => this.pushes(this.forceAt(stop, frame)));
       if (closed && start === null) start = frame;
       if (!closed && start !== null) {
         spans.push([start, frame - 1]);
@@ -349,7 +354,7 @@ class Motion {
     const [factor, unit] = scene.watched.scale;
     const [newton, newtonUnit] = scene.forceScale;
     const forces = scene.stops.map((_, stop) => this.forceAt(stop, frame));
-    const closed = forces.some((force) => force > 0);
+    const closed = forces.some((force) => this.pushes(force));
     this.watchedRange ??= scene.watched.values.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
     const told = {
       time: `${steady(time * clock, this.duration * clock)} ${clockUnit}`,
