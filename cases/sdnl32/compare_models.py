@@ -1,0 +1,100 @@
+"""How far several models of SDNL32 are from the published values: the table of README.md.
+
+Run it to print the table, or with --write to put it into README.md.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import bumpstop as bs
+from bumpstop.post.references import check_references
+
+HERE = Path(__file__).parent
+CASE = bs.load_case(HERE / "case.toml")
+ALLOY = bs.Material(young_modulus=67e9, poisson_ratio=0.0, density=2400.0)
+BAR = bs.Rectangle(height=0.014, width=0.014)
+LENGTH = 0.783
+EVEN = ((LENGTH, 10),)
+WITH_MISPLACED_NODE = ((0.3915, 5), (0.4620, 1), (0.5481, 1), (LENGTH, 3))
+"""Stretches of equal elements: where each ends, in m, and how many it has."""
+
+
+def basis(
+    stretches: tuple[tuple[float, int], ...] = EVEN,
+    *,
+    modes: int = 10,
+    damping: float = 0.01,
+    axial: bool = False,
+) -> bs.ModalBasis:
+    """Return the modes of the hinged beam, without or with those along its axis."""
+    ends = [0.0, *(end for end, _ in stretches)]
+    names = ["A", *(f"P{number}" for number in range(1, len(stretches))), "B"]
+    beams = [
+        bs.Beam(
+            f"{first}{last}", nodes=(first, last), elements=elements, material=ALLOY, section=BAR
+        )
+        for first, last, (_, elements) in zip(names, names[1:], stretches, strict=False)
+    ]
+    out_of_plane = ("dz", "drx", "dry")
+    structure = bs.Structure(
+        nodes={name: (end, 0.0, 0.0) for name, end in zip(names, ends, strict=True)},
+        beams=beams,
+        supports=[
+            bs.Support(nodes="all", fixed=out_of_plane if axial else ("dx", *out_of_plane)),
+            bs.Support(nodes=("A",), fixed=("dx", "dy")),
+        ],
+    )
+    return bs.ModalBasis.from_structure(structure, modes=modes, damping=damping)
+
+
+def deviations(modes: bs.ModalBasis) -> list[float]:
+    """Return, for each variant, the largest deviation from its published values, in %."""
+    return [100.0 * _worst(modes, variant) for variant in CASE.problems]
+
+
+def _worst(modes: bs.ModalBasis, variant: str) -> float:
+    problem = replace(CASE.problems[variant], basis=modes, gauges=())
+    checks = check_references(bs.simulate(problem, "exact"), CASE.references[variant])
+    return max(check.deviation for check in checks)
+
+
+def converged() -> tuple[str, list[float]]:
+    """Refine mesh and basis until no deviation changes by 0.005 % any more."""
+    elements, before = 10, deviations(basis())
+    while True:
+        elements *= 2
+        now = deviations(basis(((LENGTH, elements),), modes=elements))
+        if max(abs(a - b) for a, b in zip(now, before, strict=True)) < 0.005:
+            return f"converged: {elements} elements, all {elements} bending modes", now
+        before = now
+
+
+def table() -> str:
+    """Return the table as Markdown."""
+    rows = [
+        ("clean: this case", deviations(basis())),
+        ("nine bending modes and the axial one", deviations(basis(axial=True))),
+        ("no damping", deviations(basis(damping=0.0))),
+        ("a node at 0.462 m", deviations(basis(WITH_MISPLACED_NODE))),
+        converged(),
+    ]
+    lines = [f"| {name} | {soft:.2f} % | {stiff:.2f} % |" for name, (soft, stiff) in rows]
+    head = ["| model | soft, 18 kN/m | stiff, 45 kN/m |", "|---|---|---|"]
+    return "\n".join(head + lines)
+
+
+def readme() -> str:
+    """Return README.md with the table as it is computed now."""
+    written = (HERE / "README.md").read_text(encoding="utf-8")
+    return re.sub(r"\| model \|(.*\n)+?(?=\n)", f"{table()}\n", written)
+
+
+if __name__ == "__main__":
+    if "--write" in sys.argv:
+        (HERE / "README.md").write_text(readme(), encoding="utf-8")
+    else:
+        print(table())
