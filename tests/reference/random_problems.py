@@ -13,7 +13,7 @@ def frequencies(rng: np.random.Generator, modes: int) -> Array:
     if modes > 1 and rng.random() < 0.25:
         omega[1] = omega[0]
     if rng.random() < 0.3:
-        omega[0] = 0.0
+        omega[: 1 + int(rng.random() < 0.3)] = 0.0
     return omega
 
 
