@@ -90,7 +90,10 @@ def test_equal_and_nearly_equal_modes(
 
 @pytest.mark.parametrize("stiffness", [0.1, 1.0, 1e6, 1e9, 1e12, 1e15])
 def test_stops_from_very_soft_to_very_stiff(stiffness: float) -> None:
-    check(three_modes(stiffness=stiffness, force=PUSH, duration=0.02), state_error=1e-12)
+    # A soft stop's static deflection under the push is large: its rounding is what remains.
+    static = 1e-15 * float(np.abs(PUSH).max()) / stiffness / 0.01
+    problem = three_modes(stiffness=stiffness, force=PUSH, duration=0.02)
+    check(problem, state_error=max(1e-13, static))
 
 
 @pytest.mark.parametrize("stop_damping", [1e-8, 1e-3, 1.0, 1e2, 1e4])
