@@ -94,7 +94,9 @@ def test_spatial_problems_are_seen_at_an_angle_without_distortion() -> None:
 def test_supports_are_drawn_as_what_they_hold(frame: bs.ModalBasis) -> None:
     drawn = outline(frame)
     kinds = {each["point"]: each for each in mode_scene(frame, drawn)["supports"]}
-    assert kinds[drawn.nodes["A"]]["kind"] == "clamp"
+    foot = kinds[drawn.nodes["A"]]
+    assert foot["kind"] == "clamp"
+    np.testing.assert_array_equal(foot["normal"], [0.0, 1.0])  # the post stands on it
     roller = kinds[drawn.nodes["D"]]
     assert roller["kind"] == "roller"
     np.testing.assert_array_equal(roller["normal"], [0.0, 1.0])

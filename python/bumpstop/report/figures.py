@@ -99,6 +99,7 @@ def stop_force(response: Response, stop: str, references: Sequence[Reference] = 
     figure = _over_time(response, ("stop_force", stop), "Force", references)
     figure["data"][0]["line"]["color"] = LIGHT["contact"]
     figure["data"][0] |= {"fill": "tozeroy", "fillcolor": "rgba(213, 94, 0, 0.12)"}
+    figure["layout"]["yaxis"]["rangemode"] = "nonnegative"
     return figure
 
 
@@ -120,18 +121,20 @@ def energy_ledger(response: Response) -> Figure:
     """
     times = instants(response)
     terms = response.energy_terms(times)
-    kept = thin(terms["kinetic"])
+    present = [key for key in LEDGER if np.any(terms[key])]
+    share = MOST_POINTS // max(len(present), 1)
+    kept = np.unique([0, *(i for key in present for i in thin(terms[key], at_most=share))])
     given = (terms["total_initial"] + terms["load_work"])[kept]
     time = Axis("Time", scale_for("s", times))
     energy = Axis("Energy", scale_for("J", given))
     x = time.scaled(times[kept])
     stack = []
-    for key, (name, role) in LEDGER.items():
-        if np.any(terms[key]):
-            term = line_trace(x, energy.scaled(terms[key][kept]), name, role, energy)
-            term |= {"stackgroup": "energy", "fillcolor": LIGHT[role], "opacity": 0.9}
-            term["line"]["width"] = 0
-            stack.append(term)
+    for key in present:
+        name, role = LEDGER[key]
+        term = line_trace(x, energy.scaled(terms[key][kept]), name, role, energy)
+        term |= {"stackgroup": "energy", "fillcolor": LIGHT[role], "opacity": 0.9}
+        term["line"]["width"] = 0
+        stack.append(term)
     name = "Initial + work of loads" if np.any(terms["load_work"]) else "Initial energy"
     total = line_trace(x, energy.scaled(given), name, "total", energy)
     total["line"] |= {"dash": "dash", "width": 1.5}

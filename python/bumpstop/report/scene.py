@@ -123,10 +123,27 @@ def _supports(structure: Structure, drawing: Outline, view: FloatArray) -> list[
         turning = {"drx", "dry", "drz"} - {_TURN[axis] for axis in range(3) if view[:, axis].any()}
         clamped = fixed.issuperset(turning or {"drx", "dry", "drz"})
         kind = "roller" if moving_axes else "clamp" if clamped else "pin"
-        # A roller's ground lies across the direction that it holds.
-        against = view[:, held_axes[0]] if moving_axes else np.array([0.0, 1.0])
-        drawn.append({"point": drawing.nodes[node], "kind": kind, "normal": against})
+        place = drawing.nodes[node]
+        # A roller's ground lies across the direction that it holds, a wall across its beam.
+        normal = np.array([0.0, 1.0])
+        if kind == "roller":
+            normal = view[:, held_axes[0]]
+        elif kind == "clamp":
+            normal = _away_from(drawing, view, place)
+        drawn.append({"point": place, "kind": kind, "normal": normal})
     return drawn
+
+
+def _away_from(drawing: Outline, view: FloatArray, place: int) -> FloatArray:
+    """Return the direction on paper in which a beam leaves a node; right where none does."""
+    here = drawing.positions[place]
+    for first, count in drawing.lines:
+        ends = drawing.positions[[first, first + count - 1]]
+        for end, other in (ends, ends[::-1]):
+            along = view @ (other - here)
+            if np.array_equal(end, here) and np.any(along):
+                return np.asarray(along / np.linalg.norm(along))
+    return np.array([1.0, 0.0])
 
 
 def _stop(law: Any, drawing: Outline, view: FloatArray, response: Response) -> dict[str, Any]:

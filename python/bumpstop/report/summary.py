@@ -113,7 +113,7 @@ def _basis(basis: ModalBasis) -> str:
     ratios = basis.damping_ratio
     low, high = float(np.min(ratios)), float(np.max(ratios))
     damping = _ratio(low) if low == high else f"{_ratio(low)} to {_ratio(high)}"
-    highest = with_unit(float(np.max(basis.frequencies)), "Hz")
+    highest = f"{_plain(float(np.max(basis.frequencies)))} Hz"
     if high == 0.0:
         return f"{modes}, up to {highest}, undamped"
     return f"{modes}, up to {highest}, {damping} of critical damping"

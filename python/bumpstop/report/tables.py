@@ -161,7 +161,7 @@ def impacts(response: Response) -> dict[str, Any]:
     count = len(table["start"])
     scales = {}
     for name, _ in _IMPACT_COLUMNS:
-        clock = name in ("start", "end", "duration", "peak_time")
+        clock = name in ("start", "end", "peak_time")
         values = [response.problem.duration] if clock else table[name]
         scales[name] = scale_for(IMPACTS[name].units, values)
     rows = [
@@ -188,7 +188,7 @@ def modes(basis: ModalBasis) -> list[dict[str, str]]:
             frequency_told, damping, title = "rigid", "–", "rigid"
         else:
             frequency_told, damping = significant(hertz, 6), percent(float(ratio))
-            title = with_unit(hertz, "Hz", 5)
+            title = f"{significant(hertz, 5)} Hz"
         rows.append(
             {"frequency": frequency_told, "damping": damping, "title": f"Mode {number}: {title}"}
         )

@@ -31,6 +31,8 @@ class TestAppearance:
         page = opened(request.getfixturevalue(name), width=360)
         draw_all(page)
         assert page.evaluate("document.documentElement.scrollWidth") == 360
+        verdict = page.locator(".published tbody td:last-child").first
+        assert verdict.evaluate("cell => cell.getBoundingClientRect().right") <= 345
         too_small = page.evaluate(
             "[...document.querySelectorAll('p, td, th, dd, dt, h1, h2, h3, h4, text, label')]"
             ".filter(e => e.textContent.trim() && parseFloat(getComputedStyle(e).fontSize) < 10)"

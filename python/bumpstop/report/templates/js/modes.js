@@ -142,6 +142,7 @@ class Modes {
     if (!this.lines) return;
     const { stage, scene } = this;
     const modal = this.modal(this.chosen, Math.sin(this.phase));
+    stage.moveRollers(modal);
     scene.lines.forEach((line, i) => set(this.lines[i], { d: stage.linePath(line, modal) }));
     scene.nodes.forEach(({ point }, i) => {
       const [cx, cy] = stage.place(point, modal);

@@ -192,15 +192,20 @@ class Motion {
   // A beam's labels stay where its nodes are at rest; a body's go with it.
   drawLabel(name, point) {
     const stopped = this.scene.stops.some((stop) => stop.point === point);
+    const sideways = this.scene.stops.some(
+      (stop) => stop.point === point && Math.abs(stop.normal[0]) > 0.5,
+    );
     const label = svg("text", { class: "label" }, this.stage.element);
     label.textContent = name;
     if (this.scene.bodies.includes(point)) {
-      const follow = ([x, y]) => set(label, { x: x + BODY_RADIUS + 8, y: y + 4 });
-      return { follow };
+      // Clear of the stop and of the arrow of its force.
+      const [right, down] = sideways ? [-4, -BODY_RADIUS - 7] : [BODY_RADIUS + 8, 4];
+      return { follow: ([x, y]) => set(label, { x: x + right, y: y + down }) };
     }
     const [x, y] = this.stage.rest(point);
-    // Beside the arrow of the force, not under it.
+    // Beside the arrow of the force, and beside a post, not on them.
     if (stopped) set(label, { x: x + 12, y: y - 10 });
+    else if (this.stage.onlyPostsMeetAt(point)) set(label, { x: x + 14, y: y - 8 });
     else set(label, { x, y: y - 12, "text-anchor": "middle" });
     return { follow: () => {} };
   }
@@ -223,15 +228,7 @@ class Motion {
     const group = svg("g", { class: "stop" }, stage.element);
     group.dataset.stop = stop.name;
     svg("path", { class: "ground", d: groundPath(away(ground), normal) }, group);
-    const label = svg("text", { class: "label" }, group);
-    const foot = away(ground);
-    const left = foot[0] > stage.width / 2;
-    set(label, {
-      x: foot[0] + (left ? -26 : 26),
-      y: foot[1] + (Math.abs(normal[1]) > 0.5 ? 0 : 36),
-      "text-anchor": left ? "end" : "start",
-    });
-    label.textContent = stop.label;
+    this.drawStopLabel(group, stop.label, normal, away(ground), away(surface));
     return {
       group,
       normal,
@@ -242,6 +239,19 @@ class Motion {
       spring: svg("path", { class: "spring" }, group),
       plate: svg("path", { class: "plate" }, group),
     };
+  }
+
+  // Beside the ground of a spring that stands, under one that lies.
+  drawStopLabel(group, text, normal, foot, surface) {
+    const label = svg("text", { class: "label" }, group);
+    label.textContent = text;
+    const left = foot[0] > this.stage.width / 2;
+    if (Math.abs(normal[1]) > 0.5) {
+      set(label, { x: foot[0] + (left ? -26 : 26), y: foot[1], "text-anchor": left ? "end" : "start" });
+    } else {
+      set(label, { x: (foot[0] + surface[0]) / 2, y: foot[1] + 38, "text-anchor": "middle" });
+    }
+    keepInside(label, this.stage.width);
   }
 
   showStop(index, drawn, modal) {
@@ -333,6 +343,7 @@ class Motion {
     if (!this.lines) return;
     const { scene, stage, frame } = this;
     const modal = this.modalAt(frame);
+    stage.moveRollers(modal);
     scene.lines.forEach((line, i) => set(this.lines[i], { d: stage.linePath(line, modal) }));
     scene.nodes.forEach(({ point }, i) => {
       const [cx, cy] = stage.place(point, modal);

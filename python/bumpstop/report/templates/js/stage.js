@@ -92,6 +92,8 @@ class Stage {
     const pad = { left: 40, right: 40, top: 28, bottom: 34 };
     const below = SHORTEST_SPRING + BODY_RADIUS + 16;
     for (const { normal } of this.scene.stops ?? []) {
+      // Room for the label under a spring that lies.
+      if (Math.abs(normal[0]) > 0.5) pad.bottom = Math.max(pad.bottom, 52);
       if (normal[0] > 0.3) pad.left = Math.max(pad.left, below);
       if (normal[0] < -0.3) pad.right = Math.max(pad.right, below);
       if (normal[1] < -0.3) pad.top = Math.max(pad.top, below);
@@ -127,23 +129,44 @@ class Stage {
     return pathThrough(points);
   }
 
+  // Whether the beams that meet at a node all stand rather than lie.
+  onlyPostsMeetAt(point) {
+    const here = this.rest(point);
+    const ends = this.scene.lines.flatMap(([first, count]) => {
+      const pair = [this.rest(first), this.rest(first + count - 1)];
+      return [pair, [...pair].reverse()];
+    });
+    const meeting = ends.filter(([end]) => Math.hypot(end[0] - here[0], end[1] - here[1]) < 0.5);
+    const stands = ([end, other]) => Math.abs(other[1] - end[1]) > Math.abs(other[0] - end[0]);
+    return meeting.length > 0 && meeting.every(stands);
+  }
+
   // The parts that do not move: the undeformed axis and the supports.
   drawFixedParts(group) {
     for (const line of this.scene.lines) {
       svg("path", { class: "axis-line", d: this.linePath(line, null) }, group);
     }
+    this.rollers = [];
     for (const support of this.scene.supports) this.drawSupport(group, support);
+  }
+
+  // Rollers go with their nodes.
+  moveRollers(modal) {
+    for (const { group, point, turn } of this.rollers) {
+      const [x, y] = this.place(point, modal);
+      set(group, { transform: `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn})` });
+    }
   }
 
   drawSupport(group, { point, kind, normal }) {
     const [x, y] = this.rest(point);
     // A body on a guide needs no roller to be understood.
     if (kind === "roller" && this.scene.bodies.includes(point)) return;
-    const turn = (Math.atan2(normal[0], normal[1]) * 180) / Math.PI;
-    const place = svg("g", { transform: `translate(${x} ${y}) rotate(${turn.toFixed(1)})` }, group);
+    // Symbols are drawn as if they held from below.
+    const turn = ((Math.atan2(normal[0], normal[1]) * 180) / Math.PI).toFixed(1);
+    const place = svg("g", { transform: `translate(${x} ${y}) rotate(${turn})` }, group);
     if (kind === "clamp") {
-      const side = x > this.width / 2 ? -1 : 1;
-      svg("path", { class: "ground", d: groundPath([0, 0], [side, 0], 24) }, place);
+      svg("path", { class: "ground", d: groundPath([0, 0], [0, -1], 24) }, place);
       return;
     }
     const roller = kind === "roller";
@@ -153,6 +176,7 @@ class Stage {
       for (const shift of [-5, 5]) {
         svg("circle", { class: "support", cx: shift, cy: foot + 3, r: 3 }, place);
       }
+      this.rollers.push({ group: place, point, turn });
     }
     svg("path", { class: "ground", d: groundPath([0, foot + (roller ? 6 : 0)], [0, -1], 17) }, place);
   }

@@ -47,3 +47,11 @@ function groundPath(centre, normal, halfWidth = 20) {
   for (let s = -halfWidth + 2; s <= halfWidth; s += 6) path += pathThrough([at(s, 0), at(s - 5, 7)]);
   return path;
 }
+
+// Shift a text sideways until it is wholly within a width.
+function keepInside(text, width, margin = 6) {
+  const box = text.getBBox();
+  const shift =
+    Math.max(0, margin - box.x) - Math.max(0, box.x + box.width - (width - margin));
+  if (shift) set(text, { x: Number(text.getAttribute("x")) + shift });
+}
