@@ -61,7 +61,7 @@ wheel: $(STAMPS)/run ## Build the wheel and try it in an environment of its own
 	$(BIN)/maturin build --release --locked --quiet --out dist
 	$(BIN)/python -m venv target/wheel-check
 	target/wheel-check/bin/python -m pip install --requirement requirements/run.txt dist/*.whl
-	cd target && wheel-check/bin/python -c 'import bumpstop._core'
+	target/wheel-check/bin/bumpstop run $(CASE) --out target/wheel-check/out
 	@ls dist/*.whl
 
 clean: ## Remove what was computed and built, but not .venv and the Rust build
