@@ -1,8 +1,8 @@
 //! What a run leaves behind: the motion at any instant, events, impacts and energies.
 
 use crate::energy::{self, Ledger};
-use crate::error::{Error, Result};
-use crate::impacts::Impact;
+use crate::error::{Error, Result, check_length};
+use crate::impacts::{Impact, Sample};
 use crate::law::{Law, Local, State, project};
 use crate::method::fixed_step::StepRecord;
 use crate::method::piecewise_linear::PhaseRecord;
@@ -118,20 +118,20 @@ impl<L: Law> History<L> {
         }
     }
 
-    /// Modal displacement and velocity, and the laws' states, at one instant.
-    fn state_at(&self, time: f64, q: &mut [f64], v: &mut [f64], states: &mut Vec<State>) {
-        states.clear();
+    /// Shows modal displacement, velocity and law states at each time.
+    fn visit(&self, times: &[f64], mut see: impl FnMut(&[f64], &[f64], &[State])) {
+        let modes = self.problem.system.modes();
         match &self.record {
+            Record::Phases(record) => record.visit(times, modes, &mut see),
             Record::Steps(record) => {
-                record.sample(time, q, v);
-                states.extend(self.problem.laws.iter().map(|law| {
-                    law.sampled_state(&project(law, q), &project(law, v))
-                }));
-            }
-            Record::Phases(record) => {
-                let phase = record.phase_at(time);
-                record.motion(phase, time, q, v);
-                states.extend_from_slice(record.states(phase));
+                let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
+                for &time in times {
+                    record.sample(time, &mut q, &mut v);
+                    let states: Vec<State> = (self.problem.laws.iter())
+                        .map(|law| law.sampled_state(&project(law, &q), &project(law, &v)))
+                        .collect();
+                    see(&q, &v, &states);
+                }
             }
         }
     }
@@ -144,17 +144,28 @@ impl<L: Law> History<L> {
         self.check_times(times)?;
         let modes = self.problem.system.modes();
         let mut rows = Vec::with_capacity(times.len() * modes);
-        let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
-        let mut states = Vec::new();
-        for &time in times {
-            self.state_at(time, &mut q, &mut v, &mut states);
-            match derivative {
-                Derivative::Displacement => rows.extend_from_slice(&q),
-                Derivative::Velocity => rows.extend_from_slice(&v),
-                Derivative::Acceleration => rows.extend(self.acceleration(&q, &v, &states)),
-            }
-        }
+        self.visit(times, |q, v, states| match derivative {
+            Derivative::Displacement => rows.extend_from_slice(q),
+            Derivative::Velocity => rows.extend_from_slice(v),
+            Derivative::Acceleration => rows.extend(self.acceleration(q, v, states)),
+        });
         Ok(rows)
+    }
+
+    /// Samples one linear combination of the modal coordinates.
+    ///
+    /// # Errors
+    /// When a time lies outside `[0, duration]` or the row has the wrong length.
+    pub fn project(&self, row: &[f64], times: &[f64], derivative: Derivative) -> Result<Vec<f64>> {
+        check_length("the row", row, self.problem.system.modes())?;
+        if let Record::Phases(record) = &self.record {
+            self.check_times(times)?;
+            let values = record.project(row, times);
+            return Ok(values.iter().map(|v| v[derivative as usize]).collect());
+        }
+        let modal = self.motion(times, derivative)?;
+        let product = |q: &[f64]| q.iter().zip(row).map(|(q, r)| q * r).sum();
+        Ok(modal.chunks(row.len()).map(product).collect())
     }
 
     /// From the equation of motion.
@@ -182,19 +193,15 @@ impl<L: Law> History<L> {
     /// When a time lies outside `[0, duration]`.
     pub fn law_motion(&self, law: usize, times: &[f64]) -> Result<[Vec<f64>; 3]> {
         self.check_times(times)?;
-        let modes = self.problem.system.modes();
-        let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
-        let mut states = Vec::new();
+        let which = &self.problem.laws[law];
         let mut columns = [const { Vec::new() }; 3];
-        for &time in times {
-            self.state_at(time, &mut q, &mut v, &mut states);
-            let which = &self.problem.laws[law];
-            let (position, rate) = (project(which, &q), project(which, &v));
+        self.visit(times, |q, v, states| {
+            let (position, rate) = (project(which, q), project(which, v));
             let (distance, speed) = which.distance(&position, &rate);
             columns[0].push(distance);
             columns[1].push(speed);
             columns[2].push(which.force(states[law], &position, &rate)[0]);
-        }
+        });
         Ok(columns)
     }
 
@@ -209,10 +216,7 @@ impl<L: Law> History<L> {
                 let ledgers = self.step_ledgers(record);
                 (times.iter().map(|t| interpolate(ledgers, t / record.dt))).collect()
             }
-            Record::Phases(record) => {
-                let at = |t: &f64| record.ledger(&self.problem, *t);
-                times.iter().map(at).collect()
-            }
+            Record::Phases(record) => record.ledgers(&self.problem, times),
         })
     }
 
@@ -237,25 +241,21 @@ impl<L: Law> History<L> {
         }
     }
 
-    fn law_samples(&self, law: usize, times: &[f64]) -> Vec<crate::impacts::Sample> {
-        let modes = self.problem.system.modes();
-        let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
-        let mut states = Vec::new();
+    fn law_samples(&self, law: usize, times: &[f64]) -> Vec<Sample> {
         let which = &self.problem.laws[law];
-        (times.iter())
-            .map(|&time| {
-                self.state_at(time, &mut q, &mut v, &mut states);
-                let (position, rate) = (project(which, &q), project(which, &v));
-                let (distance, speed) = which.distance(&position, &rate);
-                crate::impacts::Sample {
-                    time,
-                    distance,
-                    speed,
-                    force: which.force(states[law], &position, &rate)[0],
-                    in_contact: which.in_contact(states[law]),
-                }
-            })
-            .collect()
+        let mut samples = Vec::with_capacity(times.len());
+        self.visit(times, |q, v, states| {
+            let (position, rate) = (project(which, q), project(which, v));
+            let (distance, speed) = which.distance(&position, &rate);
+            samples.push(Sample {
+                time: times[samples.len()],
+                distance,
+                speed,
+                force: which.force(states[law], &position, &rate)[0],
+                in_contact: which.in_contact(states[law]),
+            });
+        });
+        samples
     }
 
     fn step_ledgers(&self, record: &StepRecord) -> &[Ledger] {

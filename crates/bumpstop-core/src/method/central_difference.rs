@@ -7,16 +7,15 @@
 
 use super::fixed_step::{
     LawForces, STEPS_BETWEEN_OBSERVATIONS, Step, StepRecord, VelocityRule, check_step,
-    highest_frequency,
+    highest_frequency, row_products,
 };
 use super::{Observer, observe};
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, project};
-use crate::number::{LANES, Lanes, fill};
+use crate::law::{Law, project};
+use crate::number::{Instructions, LANES, Lanes, Number, Vectorised, dispatch, dot, fill};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
-use pulp::Arch;
 
 /// The method's name.
 pub const NAME: &str = "central_difference";
@@ -37,8 +36,13 @@ pub fn simulate<L: Law>(
 ) -> Result<History<L>> {
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Central)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
-    let mut laws = LawForces::new(&problem.laws, &problem.displacement, &problem.velocity);
-    Arch::new().dispatch(|| march(problem, &mut record, &mut laws, observer))?;
+    let mut laws = LawForces::new(problem);
+    dispatch(March {
+        problem,
+        record: &mut record,
+        laws: &mut laws,
+        observer,
+    })?;
     record.check()?;
     Ok(History::of_steps(problem, NAME, record, laws.into_events()))
 }
@@ -66,47 +70,116 @@ impl Coefficients {
     }
 }
 
+struct March<'a, 'b, 'o, L> {
+    problem: &'a Problem<L>,
+    record: &'a mut StepRecord,
+    laws: &'a mut LawForces<'b, L>,
+    observer: Observer<'o>,
+}
+
+impl<L: Law> Vectorised for March<'_, '_, '_, L> {
+    type Output = Result<()>;
+    #[inline(always)]
+    fn run<I: Instructions>(self) -> Result<()> {
+        march::<I, L>(self.problem, self.record, self.laws, self.observer)
+    }
+}
+
+/// The structure's part of a step does not wait for the laws: local positions follow from it
+/// and the forces alone, `x[n+1] = row . free + (row . gain row) f`, so that the forces of the
+/// next step are known before the modes are.
 #[inline(always)]
-fn march<L: Law>(
+fn march<I: Instructions, L: Law>(
     problem: &Problem<L>,
     record: &mut StepRecord,
     laws: &mut LawForces<'_, L>,
     observer: Observer<'_>,
 ) -> Result<()> {
     let dt = record.dt;
-    let coefficients = Coefficients::new(&problem.system, dt);
+    let Coefficients { own, past, gain } = Coefficients::new(&problem.system, dt);
     let constant = fill(problem.forcing.forces(), 0.0);
-    let mut forces = vec![0.0; constant.len()];
-    let before = displacement_before(problem, dt);
-    let mut past: Vec<[Local<f64>; 2]> = (problem.laws.iter())
-        .map(|law| past_positions(law, problem, &before, dt))
-        .collect();
-    record.start(&before, &problem.displacement);
+    let rows = laws.rows.clone();
+    let coupling = row_products(&rows, &gain);
+    let mut forces = vec![0.0; rows.len()];
+    let mut q = fill(&problem.displacement, 0.0);
+    let mut before = fill(&displacement_before(problem, dt), 0.0);
+    let mut free = vec![0.0; q.len()];
+    let mut local = LocalHistory::new::<I>(&rows, &before, &q, &fill(&problem.velocity, 0.0), dt);
+    record.push(&before);
+    record.push(&q);
     for n in 0..=record.steps {
         if n % STEPS_BETWEEN_OBSERVATIONS == 0 {
             observe(observer, n as f64 * dt)?;
         }
-        let (previous, q, next) = record.window(n);
-        forces.copy_from_slice(&constant);
-        laws.add(&mut forces, n as f64 * dt, q, |law, position| {
-            let rate = backward_difference(position, &past[law], dt);
-            past[law] = [*position, past[law][0]];
-            rate
-        });
-        for o in (0..forces.len()).step_by(LANES) {
-            let own = Lanes::load(&coefficients.own[o..]) * Lanes::load(&q[o..]);
-            let past = Lanes::load(&coefficients.past[o..]) * Lanes::load(&previous[o..]);
-            let gain = Lanes::load(&coefficients.gain[o..]) * Lanes::load(&forces[o..]);
-            (own + past + gain).store(&mut next[o..]);
+        laws.evaluate(n as f64 * dt, &local.now, &local.rate, &mut forces);
+        for o in (0..q.len()).step_by(LANES) {
+            let own = Lanes::<I>::load(&own[o..]) * Lanes::load(&q[o..]);
+            let past = Lanes::load(&past[o..]) * Lanes::load(&before[o..]);
+            let load = Lanes::load(&gain[o..]) * Lanes::load(&constant[o..]);
+            (own + past + load).store(&mut free[o..]);
         }
+        for (r, row) in rows.iter().enumerate() {
+            let mut pushed = 0.0;
+            for (product, force) in coupling[r * rows.len()..].iter().zip(&forces) {
+                pushed += product * force;
+            }
+            local.push(r, dot::<I>(row, &free) + pushed, dt);
+        }
+        for o in (0..q.len()).step_by(LANES) {
+            let mut pushed = Lanes::<I>::of(0.0);
+            for (row, force) in rows.iter().zip(&forces) {
+                pushed += Lanes::load(&row[o..]) * Lanes::of(*force);
+            }
+            Lanes::<I>::load(&q[o..]).store(&mut before[o..]);
+            let next = Lanes::load(&free[o..]) + Lanes::load(&gain[o..]) * pushed;
+            next.store(&mut q[o..]);
+        }
+        record.push(&q);
     }
     Ok(())
 }
 
-/// `(3 x[n] - 4 x[n-1] + x[n-2]) / (2 dt)`
-#[inline(always)]
-fn backward_difference(now: &Local<f64>, past: &[Local<f64>; 2], dt: f64) -> Local<f64> {
-    std::array::from_fn(|i| (3.0 * now[i] - 4.0 * past[0][i] + past[1][i]) / (2.0 * dt))
+/// Local positions at three steps and the rate of the latest, one entry a row.
+struct LocalHistory {
+    now: Vec<f64>,
+    rate: Vec<f64>,
+    past: Vec<[f64; 2]>,
+}
+
+impl LocalHistory {
+    #[inline(always)]
+    fn new<I: Instructions>(
+        rows: &[Vec<f64>],
+        before: &[f64],
+        q: &[f64],
+        v: &[f64],
+        dt: f64,
+    ) -> Self {
+        let mut history = Self {
+            now: Vec::with_capacity(rows.len()),
+            rate: Vec::with_capacity(rows.len()),
+            past: Vec::with_capacity(rows.len()),
+        };
+        for row in rows {
+            let (now, rate) = (dot::<I>(row, q), dot::<I>(row, v));
+            let previous = dot::<I>(row, before);
+            // Such that the difference at the start gives the initial velocity.
+            let older = 2.0 * dt * rate - 3.0 * now + 4.0 * previous;
+            history.now.push(now);
+            history.rate.push(rate);
+            history.past.push([previous, older]);
+        }
+        history
+    }
+
+    /// Goes one step on; the rate is `(3 x[n] - 4 x[n-1] + x[n-2]) / (2 dt)`.
+    #[inline(always)]
+    fn push(&mut self, row: usize, next: f64, dt: f64) {
+        self.past[row] = [self.now[row], self.past[row][0]];
+        self.now[row] = next;
+        let [previous, older] = self.past[row];
+        self.rate[row] = (3.0 * next - 4.0 * previous + older) * (0.5 / dt);
+    }
 }
 
 /// `q[-1] = q0 - dt v0 + dt^2/2 a0`, which starts the scheme at its own order.
@@ -129,22 +202,4 @@ fn displacement_before<L: Law>(problem: &Problem<L>, dt: f64) -> Vec<f64> {
             q[i] - dt * v[i] + 0.5 * dt * dt * acceleration
         })
         .collect()
-}
-
-/// Local positions at steps -1 and -2, such that the backward difference at step 0 gives the
-/// initial velocity.
-fn past_positions<L: Law>(
-    law: &L,
-    problem: &Problem<L>,
-    before: &[f64],
-    dt: f64,
-) -> [Local<f64>; 2] {
-    let now = project(law, &problem.displacement);
-    let rate = project(law, &problem.velocity);
-    let previous = project(law, before);
-    let mut older = [0.0; COORDINATES];
-    for i in 0..COORDINATES {
-        older[i] = 2.0 * dt * rate[i] - 3.0 * now[i] + 4.0 * previous[i];
-    }
-    [previous, older]
 }

@@ -3,8 +3,8 @@
 
 use crate::error::{Error, Result};
 use crate::history::Event;
-use crate::law::{COORDINATES, Law, Local, State};
-use crate::number::{LANES, Lanes, fill, padded, sum};
+use crate::law::{COORDINATES, Law, Local, State, project};
+use crate::number::{fill, padded};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 
@@ -79,22 +79,15 @@ impl StepRecord {
             modes,
             stride,
             rule,
-            displacement: vec![0.0; (steps + 3) * stride],
+            displacement: Vec::with_capacity((steps + 3) * stride),
         })
     }
 
-    /// Three consecutive rows for the step from n to n + 1: n - 1, n (to read) and n + 1.
+    /// Keeps the displacements of the next step, padded to whole lanes; the first call gives
+    /// those one step before the start.
     #[inline(always)]
-    pub(crate) fn window(&mut self, n: usize) -> (&[f64], &[f64], &mut [f64]) {
-        let (before, after) = self.displacement.split_at_mut((n + 2) * self.stride);
-        let (previous, current) = before[n * self.stride..].split_at(self.stride);
-        (previous, current, &mut after[..self.stride])
-    }
-
-    /// Sets the rows before and at the start.
-    pub(crate) fn start(&mut self, before: &[f64], first: &[f64]) {
-        self.displacement[..self.modes].copy_from_slice(before);
-        self.displacement[self.stride..self.stride + self.modes].copy_from_slice(first);
+    pub(crate) fn push(&mut self, displacement: &[f64]) {
+        self.displacement.extend_from_slice(displacement);
     }
 
     fn row(&self, n: usize) -> &[f64] {
@@ -173,49 +166,49 @@ fn law_stiffness<L: Law>(law: &L) -> f64 {
         .sum()
 }
 
-/// The laws with rows padded to whole lanes, and what they did so far.
+/// The laws of a problem for an explicit scheme: rows padded to whole lanes, in one list, and
+/// what the laws did so far.
 pub(crate) struct LawForces<'a, L> {
     laws: &'a [L],
-    rows: Vec<Vec<Vec<f64>>>,
+    /// The rows of all laws, one after the other.
+    pub rows: Vec<Vec<f64>>,
     states: Vec<State>,
     events: Vec<Event>,
 }
 
 impl<'a, L: Law> LawForces<'a, L> {
-    pub(crate) fn new(laws: &'a [L], displacement: &[f64], velocity: &[f64]) -> Self {
+    pub(crate) fn new(problem: &'a Problem<L>) -> Self {
+        let laws = &problem.laws;
         let states = (laws.iter())
             .map(|law| {
-                let position = crate::law::project(law, displacement);
-                law.sampled_state(&position, &crate::law::project(law, velocity))
+                let position = project(law, &problem.displacement);
+                law.sampled_state(&position, &project(law, &problem.velocity))
             })
             .collect();
-        let pad = |law: &L| law.rows().iter().map(|row| fill(row, 0.0)).collect();
+        let all = laws.iter().flat_map(|law| law.rows());
         Self {
             laws,
-            rows: laws.iter().map(pad).collect(),
+            rows: all.map(|row| fill(row, 0.0)).collect(),
             states,
             events: Vec::new(),
         }
     }
 
-    /// Adds the laws' forces at one instant to `forces`; `velocity` gives local velocities.
+    /// What a law at local positions and velocities (one a row) exerts along each row.
     #[inline(always)]
-    pub(crate) fn add(
+    pub(crate) fn evaluate(
         &mut self,
-        forces: &mut [f64],
         time: f64,
-        displacement: &[f64],
-        mut velocity: impl FnMut(usize, &Local<f64>) -> Local<f64>,
+        positions: &[f64],
+        velocities: &[f64],
+        forces: &mut [f64],
     ) {
+        let mut first = 0;
         for (index, law) in self.laws.iter().enumerate() {
-            let mut position = [0.0; COORDINATES];
-            for (x, row) in position.iter_mut().zip(&self.rows[index]) {
-                *x = sum(row.len(), |o| {
-                    Lanes::load(&row[o..]) * Lanes::load(&displacement[o..])
-                });
-            }
-            let rate = velocity(index, &position);
-            let state = law.sampled_state(&position, &rate);
+            let rows = first..first + law.rows().len();
+            let position = local(&positions[rows.clone()]);
+            let velocity = local(&velocities[rows.clone()]);
+            let state = law.sampled_state(&position, &velocity);
             if state != self.states[index] {
                 self.events.push(Event {
                     time,
@@ -226,14 +219,9 @@ impl<'a, L: Law> LawForces<'a, L> {
                 });
                 self.states[index] = state;
             }
-            let force = law.force(state, &position, &rate);
-            for (row, f) in self.rows[index].iter().zip(force) {
-                for offset in (0..row.len()).step_by(LANES) {
-                    let before = Lanes::load(&forces[offset..]);
-                    let added = before + Lanes::load(&row[offset..]) * Lanes([f; LANES]);
-                    added.store(&mut forces[offset..]);
-                }
-            }
+            let force = law.force(state, &position, &velocity);
+            forces[rows.clone()].copy_from_slice(&force[..rows.len()]);
+            first = rows.end;
         }
     }
 
@@ -241,4 +229,20 @@ impl<'a, L: Law> LawForces<'a, L> {
     pub(crate) fn into_events(self) -> Vec<Event> {
         self.events
     }
+}
+
+#[inline(always)]
+fn local(values: &[f64]) -> Local<f64> {
+    let mut local = [0.0; COORDINATES];
+    local[..values.len()].copy_from_slice(values);
+    local
+}
+
+/// Products of rows: `sum_i a_i weight_i b_i` for all pairs, row by row.
+pub(crate) fn row_products(rows: &[Vec<f64>], weight: &[f64]) -> Vec<f64> {
+    let product = |a: &[f64], b: &[f64]| -> f64 {
+        (a.iter().zip(b).zip(weight)).map(|((a, b), w)| a * w * b).sum()
+    };
+    let all = rows.iter().flat_map(|a| rows.iter().map(move |b| (a, b)));
+    all.map(|(a, b)| product(a, b)).collect()
 }

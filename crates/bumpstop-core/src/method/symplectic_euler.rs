@@ -7,16 +7,15 @@
 
 use super::fixed_step::{
     LawForces, STEPS_BETWEEN_OBSERVATIONS, Step, StepRecord, VelocityRule, check_step,
-    highest_frequency,
+    highest_frequency, row_products,
 };
 use super::{Observer, observe};
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law};
-use crate::number::{LANES, Lanes, Number, fill, sum};
+use crate::law::Law;
+use crate::number::{Instructions, LANES, Lanes, Number, Vectorised, dispatch, dot, fill};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
-use pulp::Arch;
 
 /// The method's name.
 pub const NAME: &str = "symplectic_euler";
@@ -48,55 +47,85 @@ pub fn simulate<L: Law>(
 ) -> Result<History<L>> {
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Backward)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
-    let mut laws = LawForces::new(&problem.laws, &problem.displacement, &problem.velocity);
-    Arch::new().dispatch(|| march(problem, &mut record, &mut laws, observer))?;
+    let mut laws = LawForces::new(problem);
+    dispatch(March {
+        problem,
+        record: &mut record,
+        laws: &mut laws,
+        observer,
+    })?;
     record.check()?;
     Ok(History::of_steps(problem, NAME, record, laws.into_events()))
 }
 
+struct March<'a, 'b, 'o, L> {
+    problem: &'a Problem<L>,
+    record: &'a mut StepRecord,
+    laws: &'a mut LawForces<'b, L>,
+    observer: Observer<'o>,
+}
+
+impl<L: Law> Vectorised for March<'_, '_, '_, L> {
+    type Output = Result<()>;
+    #[inline(always)]
+    fn run<I: Instructions>(self) -> Result<()> {
+        march::<I, L>(self.problem, self.record, self.laws, self.observer)
+    }
+}
+
+/// The structure's part of a step does not wait for the laws: local positions and velocities
+/// follow from it and the forces alone, `x' = free + dt^2 (rows . rows) f`, so that the forces of
+/// the next step are known before the modes are.
 #[inline(always)]
-fn march<L: Law>(
+fn march<I: Instructions, L: Law>(
     problem: &Problem<L>,
     record: &mut StepRecord,
     laws: &mut LawForces<'_, L>,
     observer: Observer<'_>,
 ) -> Result<()> {
     let dt = record.dt;
+    let step = Lanes::<I>::of(dt);
     let omega2 = fill(problem.system.omega2(), 0.0);
     let damping = fill(problem.system.damping(), 0.0);
     let constant = fill(problem.forcing.forces(), 0.0);
-    let mut velocity = fill(&problem.velocity, 0.0);
-    let mut forces = vec![0.0; velocity.len()];
-    let rows: Vec<Vec<Vec<f64>>> = (problem.laws.iter())
-        .map(|law| law.rows().iter().map(|row| fill(row, 0.0)).collect())
-        .collect();
-    let before: Vec<f64> = (problem.displacement.iter().zip(&problem.velocity))
-        .map(|(q, v)| q - dt * v)
-        .collect();
-    record.start(&before, &problem.displacement);
+    let mut q = fill(&problem.displacement, 0.0);
+    let mut v = fill(&problem.velocity, 0.0);
+    let mut free = vec![0.0; v.len()];
+    let rows = laws.rows.clone();
+    let coupling = row_products(&rows, &vec![1.0; v.len()]);
+    let mut forces = vec![0.0; rows.len()];
+    let mut positions: Vec<f64> = rows.iter().map(|row| dot::<I>(row, &q)).collect();
+    let mut velocities: Vec<f64> = rows.iter().map(|row| dot::<I>(row, &v)).collect();
+    let before: Vec<f64> = q.iter().zip(&v).map(|(q, v)| q - dt * v).collect();
+    record.push(&before);
+    record.push(&q);
     for n in 0..=record.steps {
         if n % STEPS_BETWEEN_OBSERVATIONS == 0 {
             observe(observer, n as f64 * dt)?;
         }
-        let (_, q, next) = record.window(n);
-        forces.copy_from_slice(&constant);
-        laws.add(&mut forces, n as f64 * dt, q, |law, _| {
-            let mut local = [0.0; COORDINATES];
-            for (x, row) in local.iter_mut().zip(&rows[law]) {
-                *x = sum(row.len(), |o| {
-                    Lanes::load(&row[o..]) * Lanes::load(&velocity[o..])
-                });
-            }
-            local
-        });
-        for o in (0..forces.len()).step_by(LANES) {
-            let (q, v) = (Lanes::load(&q[o..]), Lanes::load(&velocity[o..]));
-            let force = Lanes::load(&forces[o..]);
+        laws.evaluate(n as f64 * dt, &positions, &velocities, &mut forces);
+        for o in (0..v.len()).step_by(LANES) {
+            let (q, v) = (Lanes::<I>::load(&q[o..]), Lanes::load(&v[o..]));
             let inner = Lanes::load(&omega2[o..]) * q + Lanes::load(&damping[o..]) * v;
-            let faster = v + (force - inner) * Lanes::of(dt);
-            faster.store(&mut velocity[o..]);
-            (q + faster * Lanes::of(dt)).store(&mut next[o..]);
+            (v + (Lanes::load(&constant[o..]) - inner) * step).store(&mut free[o..]);
         }
+        for (r, row) in rows.iter().enumerate() {
+            let mut pushed = 0.0;
+            for (product, force) in coupling[r * rows.len()..].iter().zip(&forces) {
+                pushed += product * force;
+            }
+            velocities[r] = dot::<I>(row, &free) + dt * pushed;
+            positions[r] += dt * velocities[r];
+        }
+        for o in (0..v.len()).step_by(LANES) {
+            let mut rate = Lanes::<I>::load(&free[o..]);
+            for (row, force) in rows.iter().zip(&forces) {
+                rate += Lanes::load(&row[o..]) * Lanes::of(dt * force);
+            }
+            rate.store(&mut v[o..]);
+            (Lanes::load(&q[o..]) + rate * step).store(&mut q[o..]);
+        }
+        record.push(&q);
     }
     Ok(())
 }

@@ -1,39 +1,83 @@
 //! Exponential, sine and cosine without branches and without the platform's library.
 //!
 //! Both are good to about one unit in the last place, and being the same few IEEE operations
-//! everywhere they give the same bits everywhere. The range reductions follow Cody and Waite,
-//! Software Manual for the Elementary Functions, 1980; the polynomials are Taylor's, long
-//! enough that what they cut off lies below half a unit in the last place.
+//! everywhere they give the same bits everywhere. The range reductions follow W. J. Cody and
+//! W. Waite, Software Manual for the Elementary Functions, 1980; the polynomials are Taylor's,
+//! long enough that what they cut off lies below half a unit in the last place.
+
+use super::Bits;
 
 /// Adding and subtracting it rounds to the nearest whole number.
 const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52
 
+/// The same, with the exponent's bias in its low bits.
+const ROUND_BIASED: f64 = ROUND + 1023.0;
+
 const LN2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fef0_0000); // 33 bits
 const LN2_LOW: f64 = 7.440_617_110_012_397e-11;
 
-/// Exponential; arguments below -700 give exp(-700), which is zero for every purpose here.
+/// `1/n!` from n = 2 on.
+const EXP: [f64; 12] = [
+    1.0 / 2.0,
+    1.0 / 6.0,
+    1.0 / 24.0,
+    1.0 / 120.0,
+    1.0 / 720.0,
+    1.0 / 5_040.0,
+    1.0 / 40_320.0,
+    1.0 / 362_880.0,
+    1.0 / 3_628_800.0,
+    1.0 / 39_916_800.0,
+    1.0 / 479_001_600.0,
+    1.0 / 6_227_020_800.0,
+];
+
+/// `(-1)^n/(2n+1)!` from n = 1 on.
+const SIN: [f64; 7] = [
+    -1.0 / 6.0,
+    1.0 / 120.0,
+    -1.0 / 5_040.0,
+    1.0 / 362_880.0,
+    -1.0 / 39_916_800.0,
+    1.0 / 6_227_020_800.0,
+    -1.0 / 1_307_674_368_000.0,
+];
+
+/// `(-1)^n/(2n)!` from n = 2 on.
+const COS: [f64; 7] = [
+    1.0 / 24.0,
+    -1.0 / 720.0,
+    1.0 / 40_320.0,
+    -1.0 / 3_628_800.0,
+    1.0 / 479_001_600.0,
+    -1.0 / 87_178_291_200.0,
+    1.0 / 20_922_789_888_000.0,
+];
+
+/// A polynomial by Horner's rule.
 #[inline(always)]
-pub fn exp(x: f64) -> f64 {
-    let x = if x < -700.0 { -700.0 } else { x };
-    let shifted = x * std::f64::consts::LOG2_E + ROUND;
-    let whole = shifted - ROUND;
-    let r = (x - whole * LN2_HIGH) - whole * LN2_LOW;
-    let mut p = 1.0 / 6_227_020_800.0;
-    p = p * r + 1.0 / 479_001_600.0;
-    p = p * r + 1.0 / 39_916_800.0;
-    p = p * r + 1.0 / 3_628_800.0;
-    p = p * r + 1.0 / 362_880.0;
-    p = p * r + 1.0 / 40_320.0;
-    p = p * r + 1.0 / 5_040.0;
-    p = p * r + 1.0 / 720.0;
-    p = p * r + 1.0 / 120.0;
-    p = p * r + 1.0 / 24.0;
-    p = p * r + 1.0 / 6.0;
-    p = p * r + 0.5;
-    let value = 1.0 + (r + r * r * p);
-    // The whole number sits in the low bits of `shifted`; it goes into the exponent.
-    let power = f64::from_bits((shifted.to_bits().wrapping_add(1023)) << 52);
-    if x > 709.0 { f64::INFINITY } else { value * power }
+fn horner<T: Bits, const N: usize>(x: T, coefficients: &[f64; N]) -> T {
+    let mut value = T::of(coefficients[N - 1]);
+    for n in (0..N - 1).rev() {
+        value = value * x + T::of(coefficients[n]);
+    }
+    value
+}
+
+/// Exponential; arguments below -700 give exp(-700), which is zero for every purpose here, and
+/// those above 709 infinity.
+#[inline(always)]
+pub(super) fn exp<T: Bits>(x: T) -> T {
+    let lowest = T::of(-700.0);
+    let x = x.select_less(lowest, lowest, x);
+    let shifted = x * T::of(std::f64::consts::LOG2_E) + T::of(ROUND);
+    let whole = shifted - T::of(ROUND);
+    let r = (x - whole * T::of(LN2_HIGH)) - whole * T::of(LN2_LOW);
+    let value = T::of(1.0) + (r + r * r * horner(r, &EXP));
+    // The biased whole number sits in the low bits; moved up it is the power of two.
+    let power = (whole + T::of(ROUND_BIASED)).shift_left::<52>();
+    let highest = T::of(709.0);
+    highest.select_less(x, T::of(f64::INFINITY), value * power)
 }
 
 // Half pi in three pieces of 24 bits and a remainder: products with whole numbers below 2^29
@@ -47,39 +91,27 @@ const HALF_PI: [f64; 4] = [
 
 /// Sine and cosine; the reduction is exact up to 8e8 radians.
 #[inline(always)]
-pub fn sin_cos(x: f64) -> (f64, f64) {
-    let shifted = x * std::f64::consts::FRAC_2_PI + ROUND;
-    let whole = shifted - ROUND;
-    let quadrant = shifted.to_bits();
-    let r = (((x - whole * HALF_PI[0]) - whole * HALF_PI[1]) - whole * HALF_PI[2])
-        - whole * HALF_PI[3];
+pub(super) fn sin_cos<T: Bits>(x: T) -> (T, T) {
+    let shifted = x * T::of(std::f64::consts::FRAC_2_PI) + T::of(ROUND);
+    let whole = shifted - T::of(ROUND);
+    let r = (((x - whole * T::of(HALF_PI[0])) - whole * T::of(HALF_PI[1]))
+        - whole * T::of(HALF_PI[2]))
+        - whole * T::of(HALF_PI[3]);
     let z = r * r;
-    let mut s = -1.0 / 1_307_674_368_000.0;
-    s = s * z + 1.0 / 6_227_020_800.0;
-    s = s * z - 1.0 / 39_916_800.0;
-    s = s * z + 1.0 / 362_880.0;
-    s = s * z - 1.0 / 5_040.0;
-    s = s * z + 1.0 / 120.0;
-    s = s * z - 1.0 / 6.0;
-    let sin = r + r * (z * s);
-    let mut c = 1.0 / 20_922_789_888_000.0;
-    c = c * z - 1.0 / 87_178_291_200.0;
-    c = c * z + 1.0 / 479_001_600.0;
-    c = c * z - 1.0 / 3_628_800.0;
-    c = c * z + 1.0 / 40_320.0;
-    c = c * z - 1.0 / 720.0;
-    c = c * z + 1.0 / 24.0;
-    let half = 0.5 * z;
-    let one = 1.0 - half;
-    let cos = one + (((1.0 - one) - half) + z * z * c);
-    let odd = quadrant & 1 == 1;
-    let (s, c) = if odd { (cos, sin) } else { (sin, cos) };
-    let sign_of_sin = (quadrant & 2) << 62;
-    let sign_of_cos = (quadrant.wrapping_add(1) & 2) << 62;
-    (
-        f64::from_bits(s.to_bits() ^ sign_of_sin),
-        f64::from_bits(c.to_bits() ^ sign_of_cos),
-    )
+    let sin = r + r * (z * horner(z, &SIN));
+    let half = T::of(0.5) * z;
+    let one = T::of(1.0) - half;
+    let cos = one + (((T::of(1.0) - one) - half) + z * z * horner(z, &COS));
+    // The quadrant is in the low bits of `shifted`: odd ones swap, the second bit changes signs.
+    let odd = shifted.shift_left::<63>().xor(T::of(1.0));
+    let zero = T::of(0.0);
+    let (s, c) = (
+        odd.select_less(zero, cos, sin),
+        odd.select_less(zero, sin, cos),
+    );
+    let flip_sin = shifted.shift_left::<62>().and(-0.0);
+    let flip_cos = (shifted + T::of(1.0)).shift_left::<62>().and(-0.0);
+    (s.xor(flip_sin), c.xor(flip_cos))
 }
 
 #[cfg(test)]

@@ -11,8 +11,7 @@ mod lanes;
 
 pub use complex::Complex;
 pub use dual::Dual;
-pub use elementary::{exp, sin_cos};
-pub use lanes::{LANES, Lanes, fill, padded, sum};
+pub use lanes::{Instructions, LANES, Lanes, Plain, Vectorised, dispatch, dot, fill, padded};
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -46,6 +45,16 @@ pub trait Number:
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self;
 }
 
+/// A number whose bits can be worked on, for the elementary functions.
+pub trait Bits: Number {
+    /// The bits that `mask` has too.
+    fn and(self, mask: f64) -> Self;
+    /// The bits that are in one of the two.
+    fn xor(self, other: Self) -> Self;
+    /// The bits moved up by `N`.
+    fn shift_left<const N: u32>(self) -> Self;
+}
+
 impl Number for f64 {
     #[inline(always)]
     fn of(x: f64) -> Self {
@@ -65,14 +74,29 @@ impl Number for f64 {
     }
     #[inline(always)]
     fn exp(self) -> Self {
-        exp(self)
+        elementary::exp(self)
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        sin_cos(self)
+        elementary::sin_cos(self)
     }
     #[inline(always)]
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self {
         if self < other { yes } else { no }
+    }
+}
+
+impl Bits for f64 {
+    #[inline(always)]
+    fn and(self, mask: f64) -> Self {
+        f64::from_bits(self.to_bits() & mask.to_bits())
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        f64::from_bits(self.to_bits() ^ other.to_bits())
+    }
+    #[inline(always)]
+    fn shift_left<const N: u32>(self) -> Self {
+        f64::from_bits(self.to_bits() << N)
     }
 }

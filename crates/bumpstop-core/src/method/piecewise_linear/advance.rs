@@ -5,7 +5,7 @@ use super::jet::Verdict;
 use super::phase::{Phase, Phases};
 use super::signal::{Instant, Signal};
 use super::spectrum::{Rows, Spectrum};
-use crate::number::{Complex, LANES, Lanes, Number};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
 /// Cells after which the exponentials are computed afresh, so that products do not pile up
 /// rounding; the signals' rounding bound counts on it.
@@ -88,7 +88,7 @@ impl Walk {
     /// The first zero of any signal between `from` and `limit`, both measured from the start of
     /// the phase, if there is one.
     #[inline(always)]
-    pub(crate) fn first_zero(
+    pub(crate) fn first_zero<I: Instructions>(
         &mut self,
         phases: &Phases,
         phase: Phase,
@@ -106,16 +106,16 @@ impl Walk {
             from,
         };
         let spectrum = &phases.spectra[phase.spectrum];
-        let mut level = self.prepare(spectrum, signals, from, limit);
+        let mut level = self.prepare::<I>(spectrum, signals, from, limit);
         let mut time = from;
         let mut since_anchor = 0;
         let mut successes = 0;
         while time < limit {
-            self.fill(spectrum, level);
-            self.fill(spectrum, level + 1);
+            self.fill::<I>(spectrum, level);
+            self.fill::<I>(spectrum, level + 1);
             let width = self.width(level);
             certificate.cells += 1;
-            match self.judge(&path, time, level, certificate) {
+            match self.judge::<I>(&path, time, level, certificate) {
                 Outcome::Clear => {
                     time += width;
                     since_anchor += 1;
@@ -124,7 +124,7 @@ impl Walk {
                         *size *= growth;
                     }
                     if since_anchor == CELLS_BETWEEN_ANCHORS {
-                        self.anchor(spectrum, time);
+                        self.anchor::<I>(spectrum, time);
                         since_anchor = 0;
                     }
                     successes += 1;
@@ -147,7 +147,7 @@ impl Walk {
 
     /// Sets the tables for a phase; returns the first level.
     #[inline(always)]
-    fn prepare(
+    fn prepare<I: Instructions>(
         &mut self,
         spectrum: &Spectrum,
         signals: &[Signal],
@@ -167,12 +167,12 @@ impl Walk {
             }
         }
         for o in (0..n).step_by(LANES) {
-            spectrum.lambda.lanes(0, o).norm().store(&mut self.moduli[o..]);
-            self.left.put(0, o, Complex::real(Lanes::of(1.0)));
-            Lanes::of(1.0).store(&mut self.sizes[o..]);
+            spectrum.lambda.lanes::<I>(0, o).norm().store(&mut self.moduli[o..]);
+            self.left.put(0, o, Complex::real(Lanes::<I>::of(1.0)));
+            Lanes::<I>::of(1.0).store(&mut self.sizes[o..]);
         }
         if from > 0.0 {
-            self.anchor(spectrum, from);
+            self.anchor::<I>(spectrum, from);
         }
         let pace = signals.iter().map(|s| s.pace(spectrum)).fold(0.0f64, f64::max);
         self.longest = limit - from;
@@ -190,7 +190,7 @@ impl Walk {
     }
 
     #[inline(always)]
-    fn fill(&mut self, spectrum: &Spectrum, level: usize) {
+    fn fill<I: Instructions>(&mut self, spectrum: &Spectrum, level: usize) {
         if self.levels.len() <= level {
             self.levels.resize_with(level + 1, Level::default);
         }
@@ -204,24 +204,24 @@ impl Walk {
             table.factor = Rows::zeros(1, n);
             table.growth = vec![0.0; n];
         }
-        spectrum.exponentials(width, &mut table.factor);
+        spectrum.exponentials::<I>(width, &mut table.factor);
         for o in (0..n).step_by(LANES) {
-            table.factor.lanes(0, o).norm().store(&mut table.growth[o..]);
+            table.factor.lanes::<I>(0, o).norm().store(&mut table.growth[o..]);
         }
         table.filled = true;
     }
 
     #[inline(always)]
-    fn anchor(&mut self, spectrum: &Spectrum, time: f64) {
-        spectrum.exponentials(time, &mut self.left);
+    fn anchor<I: Instructions>(&mut self, spectrum: &Spectrum, time: f64) {
+        spectrum.exponentials::<I>(time, &mut self.left);
         for o in (0..spectrum.exponents()).step_by(LANES) {
-            self.left.lanes(0, o).norm().store(&mut self.sizes[o..]);
+            self.left.lanes::<I>(0, o).norm().store(&mut self.sizes[o..]);
         }
     }
 
     /// Looks at the cell of the given level that starts at `time`.
     #[inline(always)]
-    fn judge(
+    fn judge<I: Instructions>(
         &mut self,
         path: &Path<'_>,
         time: f64,
@@ -232,18 +232,18 @@ impl Walk {
         let width = self.width(level);
         let radius = 0.5 * width;
         for o in (0..spectrum.exponents()).step_by(LANES) {
-            let left = self.left.lanes(0, o);
+            let left = self.left.lanes::<I>(0, o);
             self.middle.put(0, o, left * self.levels[level + 1].factor.lanes(0, o));
             self.right.put(0, o, left * self.levels[level].factor.lanes(0, o));
-            let growth = Lanes::load(&self.levels[level].growth[o..]).max(Lanes::of(1.0));
-            (Lanes::load(&self.sizes[o..]) * growth).store(&mut self.bound[o..]);
+            let growth = Lanes::<I>::load(&self.levels[level].growth[o..]).max(Lanes::<I>::of(1.0));
+            (Lanes::<I>::load(&self.sizes[o..]) * growth).store(&mut self.bound[o..]);
         }
         let smallest = SMALLEST_CELL * (time + width).max(self.width(0).min(1.0 / spectrum.fastest));
         let mut first: Option<Crossing> = None;
         for (watched, signal) in path.signals.iter().enumerate() {
             let from_zero = time == path.from && path.starts[watched] == Start::Zero;
             let zero = if from_zero {
-                match self.depart(path, signal, time, width) {
+                match self.depart::<I>(path, signal, time, width) {
                     Departure::Clear => None,
                     Departure::Inward => return Outcome::Found(Crossing { watched, time }),
                     Departure::Unknown if width < smallest => {
@@ -258,15 +258,15 @@ impl Walk {
                     exponentials: &self.middle,
                 };
                 let jet =
-                    signal.jet(path.phases, path.phase, &at, &self.bound, &self.moduli, radius);
+                    signal.jet::<I>(path.phases, path.phase, &at, &self.bound, &self.moduli, radius);
                 certificate.missed = certificate.missed.max(jet.rounding);
                 match jet.verdict(radius) {
                     Verdict::Clear => None,
-                    Verdict::EndDecides => self.end(path, watched, time, time + width),
+                    Verdict::EndDecides => self.end::<I>(path, watched, time, time + width),
                     Verdict::Convex(curvature) => {
-                        self.valley(path, watched, time, time + width, curvature, jet.rounding)
+                        self.valley::<I>(path, watched, time, time + width, curvature, jet.rounding)
                     }
-                    Verdict::Open if width < smallest => self.end(path, watched, time, time + width),
+                    Verdict::Open if width < smallest => self.end::<I>(path, watched, time, time + width),
                     Verdict::Open => return Outcome::Halve,
                 }
             };
@@ -281,14 +281,14 @@ impl Walk {
 
     /// The first cell of a guard that starts at zero.
     #[inline(always)]
-    fn depart(&mut self, path: &Path<'_>, signal: &Signal, time: f64, width: f64) -> Departure {
+    fn depart<I: Instructions>(&mut self, path: &Path<'_>, signal: &Signal, time: f64, width: f64) -> Departure {
         let at = Instant {
             time,
             exponentials: &self.left,
         };
         let mut jet =
-            signal.jet(path.phases, path.phase, &at, &self.bound, &self.moduli, width);
-        let full = signal.values(path.phases, path.phase, &at);
+            signal.jet::<I>(path.phases, path.phase, &at, &self.bound, &self.moduli, width);
+        let full = signal.values::<I>(path.phases, path.phase, &at);
         let noise = signal.rate_rounding(path.phases, path.phase, &self.moduli);
         jet.slope = if full[1].abs() <= noise[0] { 0.0 } else { full[1] };
         let curvature = if full[2].abs() <= noise[1] { 0.0 } else { full[2] };
@@ -304,22 +304,22 @@ impl Walk {
 
     /// Decides by the sign at the right end.
     #[inline(always)]
-    fn end(&mut self, path: &Path<'_>, watched: usize, left: f64, right: f64) -> Option<f64> {
+    fn end<I: Instructions>(&mut self, path: &Path<'_>, watched: usize, left: f64, right: f64) -> Option<f64> {
         let at = Instant {
             time: right,
             exponentials: &self.right,
         };
-        let value = path.signals[watched].value(path.phases, path.phase, &at);
+        let value = path.signals[watched].value::<I>(path.phases, path.phase, &at);
         if value > 0.0 {
             None
         } else {
-            Some(self.refine(path, watched, left, right, 0.5 * (left + right)))
+            Some(self.refine::<I>(path, watched, left, right, 0.5 * (left + right)))
         }
     }
 
     /// Looks for the least value of a convex guard and decides by its sign.
     #[inline(always)]
-    fn valley(
+    fn valley<I: Instructions>(
         &mut self,
         path: &Path<'_>,
         watched: usize,
@@ -332,14 +332,14 @@ impl Walk {
         let (mut low, mut high) = (left, right);
         let mut t = 0.5 * (left + right);
         for _ in 0..REFINEMENTS {
-            let values = self.probe(path, signal, t);
+            let values = self.probe::<I>(path, signal, t);
             // A convex function lies above every such parabola.
             let least = values[0] - 0.5 * values[1] * values[1] / curvature;
             if least > rounding {
                 return None;
             }
             if values[0] < -rounding {
-                return Some(self.refine(path, watched, left, t, 0.5 * (left + t)));
+                return Some(self.refine::<I>(path, watched, left, t, 0.5 * (left + t)));
             }
             if values[1] > 0.0 {
                 high = t;
@@ -355,25 +355,25 @@ impl Walk {
         }
         // The least value is zero to rounding: the guard touches and turns back, unless it
         // leaves the cell on the wrong side.
-        self.end(path, watched, left.max(low), right)
+        self.end::<I>(path, watched, left.max(low), right)
     }
 
     /// Value and derivatives at any time.
     #[inline(always)]
-    fn probe(&mut self, path: &Path<'_>, signal: &Signal, t: f64) -> [f64; 3] {
+    fn probe<I: Instructions>(&mut self, path: &Path<'_>, signal: &Signal, t: f64) -> [f64; 3] {
         let spectrum = &path.phases.spectra[path.phase.spectrum];
-        spectrum.exponentials(t, &mut self.probe);
+        spectrum.exponentials::<I>(t, &mut self.probe);
         let at = Instant {
             time: t,
             exponentials: &self.probe,
         };
-        signal.values(path.phases, path.phase, &at)
+        signal.values::<I>(path.phases, path.phase, &at)
     }
 
     /// The zero between a positive left and a negative right end, by Halley's method kept
     /// inside the bracket.
     #[inline(always)]
-    fn refine(
+    fn refine<I: Instructions>(
         &mut self,
         path: &Path<'_>,
         watched: usize,
@@ -385,7 +385,7 @@ impl Walk {
         let (mut low, mut high) = (left, right);
         let mut t = guess;
         for _ in 0..REFINEMENTS {
-            let [value, slope, curvature] = self.probe(path, signal, t);
+            let [value, slope, curvature] = self.probe::<I>(path, signal, t);
             if value > 0.0 {
                 low = t;
             } else {

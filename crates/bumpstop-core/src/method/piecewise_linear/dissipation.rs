@@ -11,7 +11,7 @@
 use super::phase::{Phase, Phases, Workspace};
 use super::spectrum::{Rows, Spectrum};
 use crate::law::{Law, Piece};
-use crate::number::{Complex, LANES, Lanes, Number, sum};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
 
 /// A quadratic form of the coupled rates.
@@ -23,7 +23,8 @@ struct Form {
 
 impl Form {
     /// The form of `sum_g factor_g (Re sum_j rows_gj r_j)^2`.
-    fn new(spectrum: &Spectrum, rows: &Rows, factors: &[f64]) -> Self {
+    #[inline(always)]
+    fn new<I: Instructions>(spectrum: &Spectrum, rows: &Rows, factors: &[f64]) -> Self {
         let stride = spectrum.coupled_stride;
         let mut form = Self {
             with: Rows::zeros(stride, stride),
@@ -35,15 +36,16 @@ impl Form {
                 continue;
             }
             for o in (0..stride).step_by(LANES) {
-                let (mut with, mut conjugate) = (Complex::zero(), Complex::zero());
+                let (mut with, mut conjugate) =
+                    (Complex::<Lanes<I>>::zero(), Complex::<Lanes<I>>::zero());
                 for (g, factor) in factors.iter().enumerate() {
                     let mine = rows.get(g, j).scale(0.5 * factor);
-                    let mine = Complex::new(Lanes::of(mine.re), Lanes::of(mine.im));
+                    let mine = Complex::new(Lanes::<I>::of(mine.re), Lanes::<I>::of(mine.im));
                     let other = rows.lanes(g, o);
                     with += mine * other;
                     conjugate += mine * other.conj();
                 }
-                let own = Complex::new(Lanes::of(own.re), Lanes::of(own.im));
+                let own = Complex::new(Lanes::<I>::of(own.re), Lanes::<I>::of(own.im));
                 let other = spectrum.lambda.lanes(0, o);
                 form.with.put(j, o, with * recip_or_zero(own + other));
                 let between = conjugate * recip_or_zero(own + other.conj());
@@ -53,30 +55,31 @@ impl Form {
         form
     }
 
-    fn value(&self, rates: &Rows) -> f64 {
+    #[inline(always)]
+    fn value<I: Instructions>(&self, rates: &Rows) -> f64 {
         let stride = self.with.stride;
         let mut total = 0.0;
         for j in 0..stride {
             let own = rates.get(0, j);
-            let inner = |part: fn(Complex<Lanes>) -> Lanes| {
-                sum(stride, |o| {
-                    let other = rates.lanes(0, o);
-                    let with = self.with.lanes(j, o) * other;
-                    part(with + self.with_conjugate.lanes(j, o) * other.conj())
-                })
-            };
-            total += own.re * inner(|z| z.re) - own.im * inner(|z| z.im);
+            let mut inner = Complex::<Lanes<I>>::zero();
+            for o in (0..stride).step_by(LANES) {
+                let other = rates.lanes(0, o);
+                inner += self.with.lanes(j, o) * other;
+                inner += self.with_conjugate.lanes(j, o) * other.conj();
+            }
+            total += own.re * inner.re.total() - own.im * inner.im.total();
         }
         total
     }
 }
 
 /// An undamped pair does not dissipate: its form is zero, not zero by zero.
-fn recip_or_zero(z: Complex<Lanes>) -> Complex<Lanes> {
+#[inline(always)]
+fn recip_or_zero<I: Instructions>(z: Complex<Lanes<I>>) -> Complex<Lanes<I>> {
     let norm = z.norm2();
-    let zero = Lanes::of(0.0);
+    let zero = Lanes::<I>::of(0.0);
     z.conj()
-        .scale(zero.select_less(norm, Lanes::of(1.0) / norm, zero))
+        .scale(zero.select_less(norm, Lanes::<I>::of(1.0) / norm, zero))
 }
 
 /// The forms of one spectrum.
@@ -95,7 +98,8 @@ pub(crate) struct Dissipated {
 
 impl Dissipation {
     /// The forms for the laws' states of a spectrum.
-    pub(crate) fn new<L: Law>(problem: &Problem<L>, spectrum: &Spectrum) -> Self {
+    #[inline(always)]
+    pub(crate) fn new<I: Instructions, L: Law>(problem: &Problem<L>, spectrum: &Spectrum) -> Self {
         let damped = spectrum.group_damping.iter().any(|c| *c != 0.0);
         let mut first_view = 0;
         let laws = (problem.laws.iter().zip(&spectrum.states))
@@ -105,17 +109,18 @@ impl Dissipation {
                 let piece = law.piece(*state).unwrap_or(Piece::FREE);
                 let factor = piece.damping[0][0];
                 (factor != 0.0 && spectrum.groups > 0)
-                    .then(|| Form::new(spectrum, &spectrum.views[view].exponents, &[factor]))
+                    .then(|| Form::new::<I>(spectrum, &spectrum.views[view].exponents, &[factor]))
             })
             .collect();
         Self {
-            modal: damped.then(|| Form::new(spectrum, &spectrum.shape, &spectrum.group_damping)),
+            modal: damped.then(|| Form::new::<I>(spectrum, &spectrum.shape, &spectrum.group_damping)),
             laws,
         }
     }
 
     /// What is dissipated from the start of a phase to `t` after it.
-    pub(crate) fn until(
+    #[inline(always)]
+    pub(crate) fn until<I: Instructions>(
         &self,
         phases: &Phases,
         phase: Phase,
@@ -129,12 +134,12 @@ impl Dissipation {
         };
         if self.modal.is_some() || self.laws.iter().any(Option::is_some) {
             for (instant, sign) in [(0.0, -1.0), (t, 1.0)] {
-                phases.turn(phase, instant, work);
+                phases.turn::<I>(phase, instant, work);
                 if let Some(form) = &self.modal {
-                    total.modal += sign * form.value(&work.rate);
+                    total.modal += sign * form.value::<I>(&work.rate);
                 }
                 for (law, form) in total.laws.iter_mut().zip(&self.laws) {
-                    *law += sign * form.as_ref().map_or(0.0, |f| f.value(&work.rate));
+                    *law += sign * form.as_ref().map_or(0.0, |f| f.value::<I>(&work.rate));
                 }
             }
         }

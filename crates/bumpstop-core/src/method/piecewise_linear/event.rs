@@ -7,7 +7,7 @@ use super::signal::{Instant, Signal};
 use super::spectrum::Rows;
 use crate::history::Event;
 use crate::law::{COORDINATES, Guard, Law, Local, State};
-use crate::number::Complex;
+use crate::number::{Complex, Instructions};
 use crate::problem::Problem;
 
 /// The guards of all laws in their present states.
@@ -24,7 +24,7 @@ impl Watch {
     /// Sets the signals for a phase that has just begun; `fired` is the guard that ended the
     /// phase before.
     #[inline(always)]
-    pub(crate) fn set<L: Law>(
+    pub(crate) fn set<I: Instructions, L: Law>(
         &mut self,
         problem: &Problem<L>,
         phases: &Phases,
@@ -32,6 +32,7 @@ impl Watch {
         fired: Option<(usize, Guard)>,
     ) {
         let states = phases.states(phase);
+        let views = &phases.spectra[phase.spectrum].views;
         let exponents = phases.spectra[phase.spectrum].exponents();
         if self.at_start.stride != exponents {
             self.at_start = ones(exponents);
@@ -49,14 +50,14 @@ impl Watch {
                     self.signals.push(Signal::default());
                 }
                 let signal = &mut self.signals[at];
-                signal.set(phases, phase, first_view, &guard, remaining);
+                signal.set::<I>(phases, phase, &views[first_view..], &guard, remaining);
                 let same = fired.is_some_and(|(law, f)| law == index && shares_zero(&f, &guard));
                 let zero = same || {
                     let instant = Instant {
                         time: 0.0,
                         exponentials: &self.at_start,
                     };
-                    let value = signal.value(phases, phase, &instant);
+                    let value = signal.value::<I>(phases, phase, &instant);
                     value.abs() <= signal.rounding(0.0) || value < 0.0
                 };
                 self.starts.push(if zero { Start::Zero } else { Start::Positive });

@@ -25,11 +25,11 @@ use super::{Observer, observe};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
 use crate::law::{Guard, Law, State};
+use crate::number::{Instructions, Vectorised, dispatch};
 use crate::problem::Problem;
 use advance::{Certificate, Walk};
 use event::Watch;
 use phase::{Phases, Workspace};
-use pulp::Arch;
 use spectrum::{Secular, Spectrum};
 
 /// The method's name.
@@ -47,9 +47,25 @@ const PHASES_BETWEEN_OBSERVATIONS: usize = 64;
 /// See [`Error`].
 pub fn simulate<L: Law>(problem: &Problem<L>, observer: Observer<'_>) -> Result<History<L>> {
     let mut run = Run::new(problem);
-    Arch::new().dispatch(|| run.advance(observer))?;
+    dispatch(Advance {
+        run: &mut run,
+        observer,
+    })?;
     let record = PhaseRecord::new(run.phases, problem.duration, run.certificate);
     Ok(History::of_phases(problem, NAME, record, run.events))
+}
+
+struct Advance<'a, 'b, 'o, L> {
+    run: &'a mut Run<'b, L>,
+    observer: Observer<'o>,
+}
+
+impl<L: Law> Vectorised for Advance<'_, '_, '_, L> {
+    type Output = Result<()>;
+    #[inline(always)]
+    fn run<I: Instructions>(self) -> Result<()> {
+        self.run.advance::<I>(self.observer)
+    }
 }
 
 /// A run in progress.
@@ -77,7 +93,7 @@ impl<'a, L: Law> Run<'a, L> {
     }
 
     #[inline(always)]
-    fn advance(&mut self, observer: Observer<'_>) -> Result<()> {
+    fn advance<I: Instructions>(&mut self, observer: Observer<'_>) -> Result<()> {
         let problem = self.problem;
         let mut states = event::initial_states(problem);
         let (mut q, mut v) = (problem.displacement.clone(), problem.velocity.clone());
@@ -88,10 +104,10 @@ impl<'a, L: Law> Run<'a, L> {
             if self.phases.list.len() % PHASES_BETWEEN_OBSERVATIONS == 0 {
                 observe(observer, time)?;
             }
-            self.begin(time, &states, &q, &v)?;
+            self.begin::<I>(time, &states, &q, &v)?;
             let phase = self.phases.list[self.phases.list.len() - 1];
-            self.watch.set(problem, &self.phases, phase, fired);
-            let crossing = self.walk.first_zero(
+            self.watch.set::<I, L>(problem, &self.phases, phase, fired);
+            let crossing = self.walk.first_zero::<I>(
                 &self.phases,
                 phase,
                 self.watch.active(),
@@ -108,7 +124,7 @@ impl<'a, L: Law> Run<'a, L> {
                 return Err(Error::EndlessSwitching { time });
             }
             self.phases
-                .motion(phase, crossing.time, &mut self.work, &mut q, &mut v);
+                .motion::<I>(phase, crossing.time, &mut self.work, &mut q, &mut v);
             time += crossing.time;
             let (event, guard) =
                 event::event_of(problem, &states, &self.watch, crossing.watched, time);
@@ -121,14 +137,14 @@ impl<'a, L: Law> Run<'a, L> {
     /// Starts a phase; a spectrum of the secular equation that fails the phase's check is
     /// replaced by that of the dense problem.
     #[inline(always)]
-    fn begin(&mut self, time: f64, states: &[State], q: &[f64], v: &[f64]) -> Result<()> {
-        let spectrum = self.spectrum(states)?;
-        let begun = self.phases.begin(time, spectrum, q, v, &mut self.work);
+    fn begin<I: Instructions>(&mut self, time: f64, states: &[State], q: &[f64], v: &[f64]) -> Result<()> {
+        let spectrum = self.spectrum::<I>(states)?;
+        let begun = self.phases.begin::<I>(time, spectrum, q, v, &mut self.work);
         match begun {
             Err(Error::Defective { .. }) if self.phases.spectra[spectrum].is_secular => {
-                let dense = Spectrum::new(self.problem, states, Secular::Skip)?;
+                let dense = Spectrum::new::<I, L>(self.problem, states, Secular::Skip)?;
                 let replacement = self.phases.add_spectrum(dense);
-                self.phases.begin(time, replacement, q, v, &mut self.work)
+                self.phases.begin::<I>(time, replacement, q, v, &mut self.work)
             }
             begun => begun,
         }
@@ -136,12 +152,12 @@ impl<'a, L: Law> Run<'a, L> {
 
     /// The number of the spectrum for the given states, the latest one made.
     #[inline(always)]
-    fn spectrum(&mut self, states: &[State]) -> Result<usize> {
+    fn spectrum<I: Instructions>(&mut self, states: &[State]) -> Result<usize> {
         let known = self.phases.spectra.iter().rposition(|s| s.states == states);
         match known {
             Some(known) => Ok(known),
             None => {
-                let fresh = Spectrum::new(self.problem, states, Secular::Try)?;
+                let fresh = Spectrum::new::<I, L>(self.problem, states, Secular::Try)?;
                 Ok(self.phases.add_spectrum(fresh))
             }
         }

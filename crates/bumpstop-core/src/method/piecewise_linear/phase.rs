@@ -3,7 +3,7 @@
 use super::spectrum::{Rows, Single, Spectrum, Subject};
 use crate::error::{Error, Result};
 use crate::law::State;
-use crate::number::{Complex, LANES, Lanes, Number};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
 /// The largest error, relative to the state's largest part, with which the amplitudes of a
 /// phase may give back the state they were made from. Beyond it the eigenvectors are too close
@@ -60,7 +60,7 @@ impl Phases {
     /// [`Error::Defective`] when the amplitudes do not give the state back,
     /// [`Error::Overflow`] when it is not finite.
     #[inline(always)]
-    pub(crate) fn begin(
+    pub(crate) fn begin<I: Instructions>(
         &mut self,
         start: f64,
         spectrum: usize,
@@ -81,7 +81,7 @@ impl Phases {
         which.gather(q, &mut work.position);
         which.gather(v, &mut work.velocity);
         if which.groups > 0 {
-            which.amplitudes(&work.position, &work.velocity, &mut work.z);
+            which.amplitudes::<I>(&work.position, &work.velocity, &mut work.z);
         }
         subtract(which, q, &work.position, &mut work.own_position);
         subtract(which, v, &work.velocity, &mut work.own_velocity);
@@ -96,7 +96,7 @@ impl Phases {
                 work.z.set(0, single.at + i, *a);
             }
         }
-        check_amplitudes(which, start, work).inspect_err(|_| self.kept.truncate(phase.kept))?;
+        check_amplitudes::<I>(which, start, work).inspect_err(|_| self.kept.truncate(phase.kept))?;
         self.amplitude_re.extend_from_slice(&work.z.re);
         self.amplitude_im.extend_from_slice(&work.z.im);
         self.list.push(phase);
@@ -128,14 +128,14 @@ impl Phases {
 
     /// Fills the workspace with the exponentials of a phase, `t` after its start.
     #[inline(always)]
-    pub(crate) fn turn(&self, phase: Phase, t: f64, work: &mut Workspace) {
+    pub(crate) fn turn<I: Instructions>(&self, phase: Phase, t: f64, work: &mut Workspace) {
         let spectrum = &self.spectra[phase.spectrum];
         let (re, im) = self.amplitudes(phase);
         work.fit(spectrum.exponents());
         for o in (0..spectrum.exponents()).step_by(LANES) {
-            let lambda = spectrum.lambda.lanes(0, o);
-            let amplitude = Complex::new(Lanes::load(&re[o..]), Lanes::load(&im[o..]));
-            let z = amplitude * lambda.scale(Lanes::of(t)).exp();
+            let lambda = spectrum.lambda.lanes::<I>(0, o);
+            let amplitude = Complex::new(Lanes::<I>::load(&re[o..]), Lanes::<I>::load(&im[o..]));
+            let z = amplitude * lambda.scale(Lanes::<I>::of(t)).exp();
             work.z.put(0, o, z);
             work.rate.put(0, o, z * lambda);
         }
@@ -143,7 +143,7 @@ impl Phases {
 
     /// Modal displacement and velocity `t` after the start of a phase.
     #[inline(always)]
-    pub(crate) fn motion(
+    pub(crate) fn motion<I: Instructions>(
         &self,
         phase: Phase,
         t: f64,
@@ -152,12 +152,12 @@ impl Phases {
         v: &mut [f64],
     ) {
         let spectrum = &self.spectra[phase.spectrum];
-        self.turn(phase, t, work);
+        self.turn::<I>(phase, t, work);
         work.position.resize(spectrum.combinations, 0.0);
         work.velocity.resize(spectrum.combinations, 0.0);
         for g in 0..spectrum.groups {
-            work.position[g] = spectrum.at_rest[g] + spectrum.group_sum(g, &work.z);
-            work.velocity[g] = spectrum.group_sum(g, &work.rate);
+            work.position[g] = spectrum.at_rest[g] + spectrum.group_sum::<I>(g, &work.z);
+            work.velocity[g] = spectrum.group_sum::<I>(g, &work.rate);
         }
         q.fill(0.0);
         v.fill(0.0);
@@ -217,16 +217,16 @@ fn subtract(spectrum: &Spectrum, modal: &[f64], combined: &[f64], own: &mut Vec<
 
 /// The proof that the coupled amplitudes are complete: they must give the state back.
 #[inline(always)]
-fn check_amplitudes(spectrum: &Spectrum, time: f64, work: &mut Workspace) -> Result<()> {
+fn check_amplitudes<I: Instructions>(spectrum: &Spectrum, time: f64, work: &mut Workspace) -> Result<()> {
     for o in (0..spectrum.coupled_stride).step_by(LANES) {
-        let rate = work.z.lanes(0, o) * spectrum.lambda.lanes(0, o);
+        let rate = work.z.lanes::<I>(0, o) * spectrum.lambda.lanes(0, o);
         work.rate.put(0, o, rate);
     }
     let (mut defect, mut size) = (0.0f64, 0.0f64);
     let (mut defect_rate, mut size_rate) = (0.0f64, 0.0f64);
     for g in 0..spectrum.groups {
-        let position = spectrum.at_rest[g] + spectrum.group_sum(g, &work.z);
-        let velocity = spectrum.group_sum(g, &work.rate);
+        let position = spectrum.at_rest[g] + spectrum.group_sum::<I>(g, &work.z);
+        let velocity = spectrum.group_sum::<I>(g, &work.rate);
         let off = (position - work.position[g]).abs();
         let off_rate = (velocity - work.velocity[g]).abs();
         if !(off.is_finite() && off_rate.is_finite()) {

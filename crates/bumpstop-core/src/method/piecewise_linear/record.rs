@@ -3,10 +3,12 @@
 use super::advance::{Certificate, Start, Walk};
 use super::dissipation::{Dissipated, Dissipation};
 use super::phase::{Phase, Phases, Workspace};
-use super::signal::Signal;
+use super::signal::{Instant, Signal};
+use super::spectrum::{Rows, View};
 use crate::energy::{self, Ledger};
 use crate::impacts::Impact;
 use crate::law::{COORDINATES, Guard, Law, State, project};
+use crate::number::{Instructions, Vectorised, dispatch};
 use crate::problem::Problem;
 use std::sync::OnceLock;
 
@@ -57,31 +59,32 @@ impl PhaseRecord {
         self.phases.list.partition_point(|p| p.start <= time).max(1) - 1
     }
 
-    /// Modal displacement and velocity at a time in a phase.
-    pub fn motion(&self, phase: usize, time: f64, q: &mut [f64], v: &mut [f64]) {
-        let phase = self.phases.list[phase];
-        let mut work = Workspace::default();
-        self.phases.motion(phase, time - phase.start, &mut work, q, v);
+    /// Shows modal displacement, velocity and law states at each time.
+    pub(crate) fn visit(&self, times: &[f64], modes: usize, see: &mut See<'_>) {
+        dispatch(Visit {
+            record: self,
+            times,
+            modes,
+            see,
+        });
     }
 
-    /// States of the laws in a phase.
-    pub fn states(&self, phase: usize) -> &[State] {
-        self.phases.states(self.phases.list[phase])
+    /// One linear combination of the modal coordinates, with its first two derivatives.
+    pub(crate) fn project(&self, row: &[f64], times: &[f64]) -> Vec<[f64; 3]> {
+        dispatch(Projection {
+            record: self,
+            row,
+            times,
+        })
     }
 
-    /// The energy ledger at a time.
-    pub(crate) fn ledger<L: Law>(&self, problem: &Problem<L>, time: f64) -> Ledger {
-        let number = self.phase_at(time);
-        let accounts = self.accounts(problem);
-        let phase = self.phases.list[number];
-        let mut work = Workspace::default();
-        let form = &accounts.forms[phase.spectrum];
-        let dissipated = form.until(&self.phases, phase, time - phase.start, &mut work);
-        let motion = self.motion_in(problem, phase, time - phase.start, &mut work);
-        let states = self.phases.states(phase);
-        let mut ledger = state_ledger(problem, states, &motion);
-        add_dissipated(&mut ledger, &accounts.ledgers[number], &dissipated);
-        ledger
+    /// The energy ledger at each time.
+    pub(crate) fn ledgers<L: Law>(&self, problem: &Problem<L>, times: &[f64]) -> Vec<Ledger> {
+        dispatch(Ledgers {
+            record: self,
+            problem,
+            times,
+        })
     }
 
     /// Largest imbalance at the switches and at the end, relative to the largest energy.
@@ -90,13 +93,20 @@ impl PhaseRecord {
     }
 
     fn accounts<L: Law>(&self, problem: &Problem<L>) -> &Accounts {
-        self.accounts.get_or_init(|| self.settle(problem))
+        self.accounts.get_or_init(|| {
+            dispatch(Settlement {
+                record: self,
+                problem,
+            })
+        })
     }
 
-    fn settle<L: Law>(&self, problem: &Problem<L>) -> Accounts {
-        let forms: Vec<Dissipation> = (self.phases.spectra.iter())
-            .map(|spectrum| Dissipation::new(problem, spectrum))
-            .collect();
+    #[inline(always)]
+    fn settle<I: Instructions, L: Law>(&self, problem: &Problem<L>) -> Accounts {
+        let mut forms = Vec::with_capacity(self.phases.spectra.len());
+        for spectrum in &self.phases.spectra {
+            forms.push(Dissipation::new::<I, L>(problem, spectrum));
+        }
         let mut work = Workspace::default();
         let mut ledgers: Vec<Ledger> = Vec::with_capacity(self.phases.list.len() + 1);
         let mut motion = Motion {
@@ -109,8 +119,8 @@ impl PhaseRecord {
             if let Some(before) = before {
                 let length = phase.start - before.start;
                 let form = &forms[before.spectrum];
-                dissipated = form.until(&self.phases, before, length, &mut work);
-                motion = self.motion_in(problem, before, length, &mut work);
+                dissipated = form.until::<I>(&self.phases, before, length, &mut work);
+                motion = self.motion_in::<I, L>(problem, before, length, &mut work);
                 add_switch_losses(problem, &self.phases, before, *phase, &motion, &mut dissipated);
             }
             ledgers.push(next_ledger(
@@ -124,15 +134,16 @@ impl PhaseRecord {
         }
         if let Some(last) = before {
             let length = self.duration - last.start;
-            dissipated = forms[last.spectrum].until(&self.phases, last, length, &mut work);
-            motion = self.motion_in(problem, last, length, &mut work);
+            dissipated = forms[last.spectrum].until::<I>(&self.phases, last, length, &mut work);
+            motion = self.motion_in::<I, L>(problem, last, length, &mut work);
             let states = self.phases.states(last);
             ledgers.push(next_ledger(problem, states, &motion, ledgers.last(), &dissipated));
         }
         Accounts { forms, ledgers }
     }
 
-    fn motion_in<L: Law>(
+    #[inline(always)]
+    fn motion_in<I: Instructions, L: Law>(
         &self,
         problem: &Problem<L>,
         phase: Phase,
@@ -144,39 +155,137 @@ impl PhaseRecord {
             q: vec![0.0; modes],
             v: vec![0.0; modes],
         };
-        self.phases.motion(phase, t, work, &mut motion.q, &mut motion.v);
+        self.phases
+            .motion::<I>(phase, t, work, &mut motion.q, &mut motion.v);
         motion
     }
 
     /// Impacts of one law.
     pub(crate) fn impacts<L: Law>(&self, problem: &Problem<L>, law: usize) -> Vec<Impact> {
-        let which = &problem.laws[law];
-        let mut reader = ContactReader::new(self, problem, law);
-        let mut impacts = Vec::new();
-        let mut current: Option<Impact> = None;
-        for (number, phase) in self.phases.list.iter().enumerate() {
-            let contact = which.in_contact(self.phases.states(*phase)[law]);
-            if contact && current.is_none() {
-                let [_, speed, _] = reader.at(*phase, 0.0);
-                current = Some(Impact::starting(phase.start, -speed));
-            }
-            if !contact {
-                if let Some(mut impact) = current.take() {
-                    impact.end = phase.start;
-                    impact.opening_speed = reader.at(*phase, 0.0)[1];
-                    impacts.push(impact);
-                }
-            }
-            if let Some(impact) = &mut current {
-                let next = self.phases.list.get(number + 1);
-                let end = next.map_or(self.duration, |p| p.start);
-                reader.add_phase(*phase, end - phase.start, impact);
-            }
+        dispatch(Impacts(ContactReader::new(self, problem, law)))
+    }
+}
+
+/// Is shown modal displacement, velocity and law states.
+pub(crate) type See<'a> = dyn FnMut(&[f64], &[f64], &[State]) + 'a;
+
+struct Visit<'a, 'b> {
+    record: &'a PhaseRecord,
+    times: &'a [f64],
+    modes: usize,
+    see: &'a mut See<'b>,
+}
+
+impl Vectorised for Visit<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<I: Instructions>(self) {
+        let phases = &self.record.phases;
+        let mut work = Workspace::default();
+        let (mut q, mut v) = (vec![0.0; self.modes], vec![0.0; self.modes]);
+        for time in self.times {
+            let phase = phases.list[self.record.phase_at(*time)];
+            phases.motion::<I>(phase, time - phase.start, &mut work, &mut q, &mut v);
+            (self.see)(&q, &v, phases.states(phase));
         }
-        impacts.extend(current);
-        // A touch of no duration is a switch back and forth at one instant, not an impact.
-        impacts.retain(|i| i.end != i.start);
-        impacts
+    }
+}
+
+struct Projection<'a> {
+    record: &'a PhaseRecord,
+    row: &'a [f64],
+    times: &'a [f64],
+}
+
+impl Vectorised for Projection<'_> {
+    type Output = Vec<[f64; 3]>;
+    #[inline(always)]
+    fn run<I: Instructions>(self) -> Vec<[f64; 3]> {
+        const COORDINATE: Guard = Guard {
+            name: "coordinate",
+            constant: 0.0,
+            position: [1.0, 0.0, 0.0],
+            velocity: [0.0; COORDINATES],
+        };
+        let phases = &self.record.phases;
+        let mut signal = Signal::default();
+        let mut exponentials = Rows::default();
+        let mut present = None;
+        let mut values = Vec::with_capacity(self.times.len());
+        for time in self.times {
+            let number = self.record.phase_at(*time);
+            let phase = phases.list[number];
+            let spectrum = &phases.spectra[phase.spectrum];
+            if present != Some(number) {
+                let view = [View::new::<I>(spectrum, self.row)];
+                signal.set::<I>(phases, phase, &view, &COORDINATE, self.record.duration);
+                exponentials = Rows::zeros(1, spectrum.exponents());
+                present = Some(number);
+            }
+            let time = time - phase.start;
+            spectrum.exponentials::<I>(time, &mut exponentials);
+            let at = Instant {
+                time,
+                exponentials: &exponentials,
+            };
+            values.push(signal.values::<I>(phases, phase, &at));
+        }
+        values
+    }
+}
+
+struct Ledgers<'a, L> {
+    record: &'a PhaseRecord,
+    problem: &'a Problem<L>,
+    times: &'a [f64],
+}
+
+impl<L: Law> Vectorised for Ledgers<'_, L> {
+    type Output = Vec<Ledger>;
+    #[inline(always)]
+    fn run<I: Instructions>(self) -> Vec<Ledger> {
+        let Self {
+            record, problem, ..
+        } = self;
+        let accounts = record.accounts(problem);
+        let phases = &record.phases;
+        let mut work = Workspace::default();
+        let mut ledgers = Vec::with_capacity(self.times.len());
+        for time in self.times {
+            let number = record.phase_at(*time);
+            let phase = phases.list[number];
+            let t = time - phase.start;
+            let form = &accounts.forms[phase.spectrum];
+            let dissipated = form.until::<I>(phases, phase, t, &mut work);
+            let motion = record.motion_in::<I, L>(problem, phase, t, &mut work);
+            let mut ledger = state_ledger(problem, phases.states(phase), &motion);
+            add_dissipated(&mut ledger, &accounts.ledgers[number], &dissipated);
+            ledgers.push(ledger);
+        }
+        ledgers
+    }
+}
+
+struct Settlement<'a, L> {
+    record: &'a PhaseRecord,
+    problem: &'a Problem<L>,
+}
+
+impl<L: Law> Vectorised for Settlement<'_, L> {
+    type Output = Accounts;
+    #[inline(always)]
+    fn run<I: Instructions>(self) -> Accounts {
+        self.record.settle::<I, L>(self.problem)
+    }
+}
+
+struct Impacts<'a, L>(ContactReader<'a, L>);
+
+impl<L: Law> Vectorised for Impacts<'_, L> {
+    type Output = Vec<Impact>;
+    #[inline(always)]
+    fn run<I: Instructions>(mut self) -> Vec<Impact> {
+        self.0.impacts::<I>()
     }
 }
 
@@ -262,9 +371,41 @@ impl<'a, L: Law> ContactReader<'a, L> {
         }
     }
 
+    #[inline(always)]
+    fn impacts<I: Instructions>(&mut self) -> Vec<Impact> {
+        let phases = &self.record.phases;
+        let which = &self.problem.laws[self.law];
+        let mut impacts = Vec::new();
+        let mut current: Option<Impact> = None;
+        for (number, phase) in phases.list.iter().enumerate() {
+            let contact = which.in_contact(phases.states(*phase)[self.law]);
+            if contact && current.is_none() {
+                let [_, speed, _] = self.at::<I>(*phase, 0.0);
+                current = Some(Impact::starting(phase.start, -speed));
+            }
+            if !contact {
+                if let Some(mut impact) = current.take() {
+                    impact.end = phase.start;
+                    impact.opening_speed = self.at::<I>(*phase, 0.0)[1];
+                    impacts.push(impact);
+                }
+            }
+            if let Some(impact) = &mut current {
+                let next = phases.list.get(number + 1);
+                let end = next.map_or(self.record.duration, |p| p.start);
+                self.add_phase::<I>(*phase, end - phase.start, impact);
+            }
+        }
+        impacts.extend(current);
+        // A touch of no duration is a switch back and forth at one instant, not an impact.
+        impacts.retain(|i| i.end != i.start);
+        impacts
+    }
+
     /// Distance, its rate and the force, `t` after the start of a phase.
-    fn at(&mut self, phase: Phase, t: f64) -> [f64; 3] {
-        let motion = self.record.motion_in(self.problem, phase, t, &mut self.work);
+    #[inline(always)]
+    fn at<I: Instructions>(&mut self, phase: Phase, t: f64) -> [f64; 3] {
+        let motion = (self.record).motion_in::<I, L>(self.problem, phase, t, &mut self.work);
         let law = &self.problem.laws[self.law];
         let (position, velocity) = (project(law, &motion.q), project(law, &motion.v));
         let (distance, rate) = law.distance(&position, &velocity);
@@ -273,7 +414,8 @@ impl<'a, L: Law> ContactReader<'a, L> {
     }
 
     /// Adds a phase of the given length to an impact.
-    fn add_phase(&mut self, phase: Phase, length: f64, impact: &mut Impact) {
+    #[inline(always)]
+    fn add_phase<I: Instructions>(&mut self, phase: Phase, length: f64, impact: &mut Impact) {
         let law = &self.problem.laws[self.law];
         let state = self.record.phases.states(phase)[self.law];
         let Some(piece) = law.piece(state).filter(|p| p.acts()) else {
@@ -289,63 +431,77 @@ impl<'a, L: Law> ContactReader<'a, L> {
         force.velocity[0] = -piece.damping[0][0];
         let mut distance = force;
         (distance.position[0], distance.velocity[0]) = (1.0, 0.0);
-        let signal = self.signal(phase, &force);
+        let signal = self.signal::<I>(phase, &force);
         impact.impulse += signal.integral(&self.record.phases, phase, length);
-        self.add_peaks(phase, length, &signal, impact);
-        let signal = self.signal(phase, &distance);
-        self.add_work(phase, length, &signal, impact);
+        self.add_peaks::<I>(phase, length, &signal, impact);
+        let signal = self.signal::<I>(phase, &distance);
+        self.add_work::<I>(phase, length, &signal, impact);
     }
 
-    fn signal(&self, phase: Phase, guard: &Guard) -> Signal {
+    #[inline(always)]
+    fn signal<I: Instructions>(&self, phase: Phase, guard: &Guard) -> Signal {
         let mut signal = Signal::default();
         let remaining = self.problem.duration - phase.start;
-        signal.set(&self.record.phases, phase, self.first_view, guard, remaining);
+        let phases = &self.record.phases;
+        let views = &phases.spectra[phase.spectrum].views[self.first_view..];
+        signal.set::<I>(phases, phase, views, guard, remaining);
         signal
     }
 
-    fn add_peaks(&mut self, phase: Phase, length: f64, force: &Signal, impact: &mut Impact) {
+    #[inline(always)]
+    fn add_peaks<I: Instructions>(&mut self, phase: Phase, length: f64, force: &Signal, impact: &mut Impact) {
         let mut instants = vec![0.0, length];
-        instants.extend(self.turning_points(phase, length, force));
+        instants.extend(self.turning_points::<I>(phase, length, force));
         for t in instants {
-            let [_, _, force] = self.at(phase, t);
+            let [_, _, force] = self.at::<I>(phase, t);
             impact.see_force(phase.start + t, force);
         }
     }
 
     /// Between turning points of the distance the work has one sign.
-    fn add_work(&mut self, phase: Phase, length: f64, distance: &Signal, impact: &mut Impact) {
+    #[inline(always)]
+    fn add_work<I: Instructions>(&mut self, phase: Phase, length: f64, distance: &Signal, impact: &mut Impact) {
         let mut instants = vec![0.0];
-        instants.extend(self.turning_points(phase, length, distance));
+        instants.extend(self.turning_points::<I>(phase, length, distance));
         instants.push(length);
-        let given: Vec<f64> = instants.iter().map(|t| self.taken(phase, *t)).collect();
+        let given: Vec<f64> = instants.iter().map(|t| self.taken::<I>(phase, *t)).collect();
         for pair in given.windows(2) {
             impact.add_work(pair[0] - pair[1]);
         }
     }
 
     /// Energy in the law, stored or dissipated since the start of the phase.
-    fn taken(&mut self, phase: Phase, t: f64) -> f64 {
+    #[inline(always)]
+    fn taken<I: Instructions>(&mut self, phase: Phase, t: f64) -> f64 {
         let law = &self.problem.laws[self.law];
         let form = &self.record.accounts(self.problem).forms[phase.spectrum];
-        let dissipated = form.until(&self.record.phases, phase, t, &mut self.work);
-        let motion = self.record.motion_in(self.problem, phase, t, &mut self.work);
+        let dissipated = form.until::<I>(&self.record.phases, phase, t, &mut self.work);
+        let motion = (self.record).motion_in::<I, L>(self.problem, phase, t, &mut self.work);
         let state = self.record.phases.states(phase)[self.law];
         law.stored(state, &project(law, &motion.q)) + dissipated.laws[self.law]
     }
 
     /// All zeros of a signal's rate inside a phase, in order.
-    fn turning_points(&mut self, phase: Phase, length: f64, signal: &Signal) -> Vec<f64> {
+    #[inline(always)]
+    fn turning_points<I: Instructions>(&mut self, phase: Phase, length: f64, signal: &Signal) -> Vec<f64> {
         let phases = &self.record.phases;
         let mut rate = signal.derivative(phases, phase);
         let mut found = Vec::new();
         let mut from = 0.0;
         let mut certificate = Certificate::default();
-        let mut start = if rate.orient(phases, phase) { Start::Positive } else { Start::Zero };
+        let mut start = if rate.orient::<I>(phases, phase) { Start::Positive } else { Start::Zero };
         let limit = MOST_TURNING_POINTS;
         while found.len() < limit {
             let rates = std::slice::from_ref(&rate);
-            let zero =
-                (self.walk).first_zero(phases, phase, rates, &[start], from, length, &mut certificate);
+            let zero = self.walk.first_zero::<I>(
+                phases,
+                phase,
+                rates,
+                &[start],
+                from,
+                length,
+                &mut certificate,
+            );
             let Some(zero) = zero else {
                 break;
             };

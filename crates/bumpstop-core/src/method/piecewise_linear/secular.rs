@@ -14,7 +14,7 @@
 //! Newton's method on `D_o f` in the complex plane, with the distance from the nearest damped
 //! pole as unknown, so that weakly coupled modes lose no digits.
 
-use crate::number::{Complex, LANES, Lanes, Number, padded};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number, padded};
 
 /// Corrections of the middle way before damping comes in.
 const MIDDLE_WAY_STEPS: usize = 2;
@@ -51,7 +51,7 @@ pub(crate) struct Roots {
 impl Coupling {
     /// All eigenvalues, or `None` where a mode is not lightly enough damped for this path.
     #[inline(always)]
-    pub(crate) fn solve(&self) -> Option<Roots> {
+    pub(crate) fn solve<I: Instructions>(&self) -> Option<Roots> {
         let oscillates = |(w2, c): (&f64, &f64)| *w2 == 0.0 && *c == 0.0 || c * c < 2.0 * w2;
         if !self.omega2.iter().zip(&self.damping).all(oscillates) {
             return None;
@@ -67,7 +67,7 @@ impl Coupling {
         };
         let mut offset = 0;
         while offset < n {
-            self.solve_lanes(offset, &mut roots)?;
+            self.solve_lanes::<I>(offset, &mut roots)?;
             offset += LANES;
         }
         Some(roots)
@@ -75,17 +75,15 @@ impl Coupling {
 
     /// Eight roots at once, from the pole with number `offset` on.
     #[inline(always)]
-    fn solve_lanes(&self, offset: usize, roots: &mut Roots) -> Option<()> {
-        let bracket = Bracket::new(self, offset);
+    fn solve_lanes<I: Instructions>(&self, offset: usize, roots: &mut Roots) -> Option<()> {
+        let bracket = Bracket::<I>::new(self, offset);
         let (origin, start) = self.undamped(&bracket);
         let lambda = self.damped(&bracket, origin, start)?;
-        let live = |lane: usize| offset + lane < self.omega2.len();
-        for lane in 0..LANES {
-            if live(lane) && lambda.value.im.0[lane] <= 0.0 {
-                return None;
-            }
+        let im = lambda.value.im.numbers();
+        if (im.iter().take(self.omega2.len() - offset)).any(|im| *im <= 0.0) {
+            return None;
         }
-        let keep = |x: Lanes| Lanes(std::array::from_fn(|l| if live(l) { x.0[l] } else { 0.0 }));
+        let keep = |x| bracket.live.select_less(Lanes::<I>::of(0.0), x, Lanes::<I>::of(0.0));
         keep(lambda.value.re).store(&mut roots.lambda_re[offset..]);
         keep(lambda.value.im).store(&mut roots.lambda_im[offset..]);
         for i in 0..self.omega2.len() {
@@ -99,15 +97,15 @@ impl Coupling {
 
     /// The undamped roots `mu = -s^2`: the nearer poles, and the root measured from them.
     #[inline(always)]
-    fn undamped(&self, bracket: &Bracket) -> (Nearest, Undamped) {
-        let k = Lanes::of(self.stiffness);
-        let middle = (bracket.upper - bracket.lower) * Lanes::of(0.5);
+    fn undamped<I: Instructions>(&self, bracket: &Bracket<I>) -> (Nearest<I>, Undamped<I>) {
+        let k = Lanes::<I>::of(self.stiffness);
+        let middle = (bracket.upper - bracket.lower) * Lanes::<I>::of(0.5);
         // The rest of f at the middle, all but the two poles beside the root.
-        let mut rest = Lanes::of(1.0);
+        let mut rest = Lanes::<I>::of(1.0);
         for i in 0..self.omega2.len() {
-            let z = k * Lanes::of(self.phi[i] * self.phi[i]);
-            let distance = Lanes::of(self.omega2[i]) - bracket.lower - middle;
-            let other = bracket.outside(i, Lanes::of(1.0), Lanes::of(0.0));
+            let z = k * Lanes::<I>::of(self.phi[i] * self.phi[i]);
+            let distance = Lanes::<I>::of(self.omega2[i]) - bracket.lower - middle;
+            let other = bracket.outside(i, Lanes::<I>::of(1.0), Lanes::<I>::of(0.0));
             rest += other * z / distance;
         }
         let (z_low, z_high) = (k * bracket.phi2_lower, k * bracket.phi2_upper);
@@ -119,18 +117,18 @@ impl Coupling {
         let mut root = middle_way(rest, z_low, z_high, low, high, low + middle);
         let mut sums = DampingSums::new(self);
         for _ in 0..MIDDLE_WAY_STEPS {
-            let (mut below, mut below_slope) = (Lanes::of(0.0), Lanes::of(0.0));
-            let (mut above, mut above_slope) = (Lanes::of(0.0), Lanes::of(0.0));
+            let (mut below, mut below_slope) = (Lanes::<I>::of(0.0), Lanes::<I>::of(0.0));
+            let (mut above, mut above_slope) = (Lanes::<I>::of(0.0), Lanes::<I>::of(0.0));
             sums = DampingSums::new(self);
             for i in 0..self.omega2.len() {
-                let z = k * Lanes::of(self.phi[i] * self.phi[i]);
-                let distance = Lanes::of(self.omega2[i]) - origin.omega2 - root;
-                let inverse = Lanes::of(1.0) / distance;
+                let z = k * Lanes::<I>::of(self.phi[i] * self.phi[i]);
+                let distance = Lanes::<I>::of(self.omega2[i]) - origin.omega2 - root;
+                let inverse = Lanes::<I>::of(1.0) / distance;
                 let term = z * inverse;
                 let slope = term * inverse;
                 sums.add(self.damping[i], slope);
-                let is_below = bracket.below(i, Lanes::of(1.0), Lanes::of(0.0));
-                let is_above = Lanes::of(1.0) - is_below;
+                let is_below = bracket.below(i, Lanes::<I>::of(1.0), Lanes::<I>::of(0.0));
+                let is_above = Lanes::<I>::of(1.0) - is_below;
                 below += is_below * term;
                 below_slope += is_below * slope;
                 above += is_above * term;
@@ -138,7 +136,7 @@ impl Coupling {
             }
             let (to_low, to_high) = (low - root, high - root);
             let constant =
-                Lanes::of(1.0) + (below - to_low * below_slope) + (above - to_high * above_slope);
+                Lanes::<I>::of(1.0) + (below - to_low * below_slope) + (above - to_high * above_slope);
             let (weight_low, weight_high) =
                 (to_low * to_low * below_slope, to_high * to_high * above_slope);
             root = middle_way(constant, weight_low, weight_high, low, high, root);
@@ -147,23 +145,23 @@ impl Coupling {
             origin,
             Undamped {
                 root,
-                damping: sums.ratio(self),
+                damping: sums.ratio(),
             },
         )
     }
 
     /// Newton's method on `D_o f`, all lanes together.
     #[inline(always)]
-    fn damped(
+    fn damped<I: Instructions>(
         &self,
-        bracket: &Bracket,
-        origin: Nearest,
-        start: Undamped,
-    ) -> Option<Eigenvalue> {
+        bracket: &Bracket<I>,
+        origin: Nearest<I>,
+        start: Undamped<I>,
+    ) -> Option<Eigenvalue<I>> {
         let pole = origin.pole();
         let mu = origin.omega2 + start.root;
-        let half = start.damping * Lanes::of(0.5);
-        let guess = Complex::new(-half, (mu - half * half).max(Lanes::of(0.0)).sqrt());
+        let half = start.damping * Lanes::<I>::of(0.5);
+        let guess = Complex::new(-half, (mu - half * half).max(Lanes::<I>::of(0.0)).sqrt());
         // s - p_o without cancellation: (s^2 + c_o s + w_o^2) / (s - conj p_o), to first order.
         let slope = (guess - pole.conj()).norm2();
         let first = Complex::new(
@@ -171,51 +169,48 @@ impl Coupling {
             (origin.damping - start.damping) * guess.im,
         );
         let mut eigenvalue = Eigenvalue::new(origin, pole);
-        let careful = slope.0.iter().all(|s| *s > 0.0);
+        let careful = slope.numbers().iter().all(|s| *s > 0.0);
         let delta = if careful {
-            first * (guess - pole.conj()).conj().scale(Lanes::of(1.0) / slope)
+            first * (guess - pole.conj()).conj().scale(Lanes::<I>::of(1.0) / slope)
         } else {
             guess - pole
         };
         eigenvalue.set(delta);
-        let k = Lanes::of(self.stiffness);
-        let c = Lanes::of(self.stop_damping);
+        let k = Lanes::<I>::of(self.stiffness);
+        let c = Lanes::<I>::of(self.stop_damping);
         for _ in 0..NEWTON_STEPS {
             let s = eigenvalue.value;
             let kappa = Complex::new(k + c * s.re, c * s.im);
             let mut sum = Complex::zero();
             let mut slope = Complex::zero();
             for i in 0..self.omega2.len() {
-                let phi2 = Lanes::of(self.phi[i] * self.phi[i]);
+                let phi2 = Lanes::<I>::of(self.phi[i] * self.phi[i]);
                 let d = eigenvalue.pole(self, i);
-                let zero = Lanes::of(0.0);
+                let zero = Lanes::<I>::of(0.0);
                 let weight = origin.differs(i, phi2, zero);
-                let norm = origin.differs(i, d.norm2(), Lanes::of(1.0));
-                let inverse = d.conj().scale(Lanes::of(1.0) / norm);
+                let norm = origin.differs(i, d.norm2(), Lanes::<I>::of(1.0));
+                let inverse = d.conj().scale(Lanes::<I>::of(1.0) / norm);
                 let term = inverse.scale(weight);
                 sum += term;
                 let rate = Complex::new(
-                    Lanes::of(2.0) * s.re + Lanes::of(self.damping[i]),
-                    Lanes::of(2.0) * s.im,
+                    Lanes::<I>::of(2.0) * s.re + Lanes::<I>::of(self.damping[i]),
+                    Lanes::<I>::of(2.0) * s.im,
                 );
                 slope = slope - term * inverse * rate;
             }
             let own = eigenvalue.own_pole();
             let own_rate = Complex::new(
-                Lanes::of(2.0) * s.re + origin.damping,
-                Lanes::of(2.0) * s.im,
+                Lanes::<I>::of(2.0) * s.re + origin.damping,
+                Lanes::<I>::of(2.0) * s.im,
             );
             let inner = (own * sum).plus(origin.phi2);
             let value = own + kappa * inner;
             let rate = own_rate + inner.scale(c) + kappa * (own_rate * sum + own * slope);
             let step = value * rate.recip();
             eigenvalue.set(eigenvalue.delta - step);
-            let tolerance = Lanes::of(CONVERGED * CONVERGED) * eigenvalue.delta.norm2();
-            let size = step.norm2();
-            let done = |lane: usize| {
-                size.0[lane] <= tolerance.0[lane] || bracket.first + lane >= self.omega2.len()
-            };
-            if (0..LANES).all(done) {
+            let tolerance = Lanes::<I>::of(CONVERGED * CONVERGED) * eigenvalue.delta.norm2();
+            let late = tolerance.select_less(step.norm2(), bracket.live, Lanes::<I>::of(0.0));
+            if late.numbers().iter().all(|late| *late == 0.0) {
                 return Some(eigenvalue);
             }
         }
@@ -224,32 +219,48 @@ impl Coupling {
 }
 
 /// The poles on either side of eight consecutive undamped roots.
-struct Bracket {
+struct Bracket<I: Instructions> {
+    /// Number of the lower pole of each lane, plus a half.
+    place: Lanes<I>,
+    /// Minus one in lanes with a root, zero in the padding.
+    live: Lanes<I>,
     first: usize,
     count: usize,
-    lower: Lanes,
-    upper: Lanes,
-    phi2_lower: Lanes,
-    phi2_upper: Lanes,
+    lower: Lanes<I>,
+    upper: Lanes<I>,
+    phi2_lower: Lanes<I>,
+    phi2_upper: Lanes<I>,
 }
 
-impl Bracket {
+impl<I: Instructions> Bracket<I> {
     #[inline(always)]
     fn new(coupling: &Coupling, first: usize) -> Self {
         let n = coupling.omega2.len();
         let total: f64 = coupling.phi.iter().map(|p| p * p).sum();
         // No root lies above the last pole by more than k sum phi^2: a pole without weight.
         let beyond = coupling.omega2[n - 1] + 1.000_001 * coupling.stiffness * total;
-        let index = |lane: usize| (first + lane).min(n - 1);
+        let mut places = [0.0; LANES];
+        let mut live = [0.0; LANES];
+        let (mut lower, mut upper) = ([0.0; LANES], [0.0; LANES]);
+        let (mut phi2_lower, mut phi2_upper) = ([0.0; LANES], [0.0; LANES]);
         let at = |i: usize| if i < n { coupling.omega2[i] } else { beyond };
         let phi2 = |i: usize| if i < n { coupling.phi[i] * coupling.phi[i] } else { 0.0 };
+        for lane in 0..LANES {
+            let index = (first + lane).min(n - 1);
+            places[lane] = index as f64 + 0.5;
+            live[lane] = if first + lane < n { -1.0 } else { 0.0 };
+            (lower[lane], upper[lane]) = (at(index), at(index + 1));
+            (phi2_lower[lane], phi2_upper[lane]) = (phi2(index), phi2(index + 1));
+        }
         Self {
+            place: Lanes::new(places),
+            live: Lanes::new(live),
             first,
             count: n,
-            lower: Lanes(std::array::from_fn(|l| at(index(l)))),
-            upper: Lanes(std::array::from_fn(|l| at(index(l) + 1))),
-            phi2_lower: Lanes(std::array::from_fn(|l| phi2(index(l)))),
-            phi2_upper: Lanes(std::array::from_fn(|l| phi2(index(l) + 1))),
+            lower: Lanes::new(lower),
+            upper: Lanes::new(upper),
+            phi2_lower: Lanes::new(phi2_lower),
+            phi2_upper: Lanes::new(phi2_upper),
         }
     }
 
@@ -260,95 +271,99 @@ impl Bracket {
 
     /// `yes` in the lanes whose root lies above pole i.
     #[inline(always)]
-    fn below(&self, i: usize, yes: Lanes, no: Lanes) -> Lanes {
-        Lanes(std::array::from_fn(|l| {
-            if i <= self.index(l) { yes.0[l] } else { no.0[l] }
-        }))
+    fn below(&self, i: usize, yes: Lanes<I>, no: Lanes<I>) -> Lanes<I> {
+        Lanes::<I>::of(i as f64).select_less(self.place, yes, no)
     }
 
     /// `yes` in the lanes for which pole i is not beside the root.
     #[inline(always)]
-    fn outside(&self, i: usize, yes: Lanes, no: Lanes) -> Lanes {
-        Lanes(std::array::from_fn(|l| {
-            let at = self.index(l);
-            if i != at && i != at + 1 { yes.0[l] } else { no.0[l] }
-        }))
+    fn outside(&self, i: usize, yes: Lanes<I>, no: Lanes<I>) -> Lanes<I> {
+        // The poles beside the root have numbers place - 1/2 and place + 1/2.
+        let apart = (Lanes::<I>::of(i as f64) - self.place).abs();
+        Lanes::<I>::of(0.75).select_less(apart, yes, no)
     }
 }
 
 /// The pole nearest to each root.
 #[derive(Clone, Copy)]
-struct Nearest {
-    index: [usize; LANES],
-    omega2: Lanes,
-    damping: Lanes,
-    phi2: Lanes,
+struct Nearest<I: Instructions> {
+    index: Lanes<I>,
+    omega2: Lanes<I>,
+    damping: Lanes<I>,
+    phi2: Lanes<I>,
 }
 
-impl Nearest {
+impl<I: Instructions> Nearest<I> {
     /// f increases between poles: positive at the middle means a root in the lower half.
     #[inline(always)]
-    fn new(coupling: &Coupling, bracket: &Bracket, at_middle: Lanes) -> Self {
+    fn new(coupling: &Coupling, bracket: &Bracket<I>, at_middle: Lanes<I>) -> Self {
         let n = coupling.omega2.len();
-        let index: [usize; LANES] = std::array::from_fn(|l| {
-            let lower = bracket.index(l);
-            if at_middle.0[l] > 0.0 || lower + 1 == n { lower } else { lower + 1 }
-        });
+        let at_middle = at_middle.numbers();
+        let mut index = [0.0; LANES];
+        let (mut omega2, mut damping, mut phi2) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let lower = bracket.index(lane);
+            let low = at_middle[lane] > 0.0 || lower + 1 == n;
+            let nearest = if low { lower } else { lower + 1 };
+            index[lane] = nearest as f64;
+            omega2[lane] = coupling.omega2[nearest];
+            damping[lane] = coupling.damping[nearest];
+            phi2[lane] = coupling.phi[nearest] * coupling.phi[nearest];
+        }
         Self {
-            index,
-            omega2: Lanes(index.map(|i| coupling.omega2[i])),
-            damping: Lanes(index.map(|i| coupling.damping[i])),
-            phi2: Lanes(index.map(|i| coupling.phi[i] * coupling.phi[i])),
+            index: Lanes::new(index),
+            omega2: Lanes::new(omega2),
+            damping: Lanes::new(damping),
+            phi2: Lanes::new(phi2),
         }
     }
 
     /// The damped pole itself.
     #[inline(always)]
-    fn pole(&self) -> Complex<Lanes> {
-        let half = self.damping * Lanes::of(0.5);
-        let im2 = (self.omega2 - half * half).max(Lanes::of(0.0));
+    fn pole(&self) -> Complex<Lanes<I>> {
+        let half = self.damping * Lanes::<I>::of(0.5);
+        let im2 = (self.omega2 - half * half).max(Lanes::<I>::of(0.0));
         Complex::new(-half, im2.sqrt())
     }
 
     /// `yes` in the lanes whose nearest pole is not i.
     #[inline(always)]
-    fn differs(&self, i: usize, yes: Lanes, no: Lanes) -> Lanes {
-        Lanes(std::array::from_fn(|l| {
-            if self.index[l] == i { no.0[l] } else { yes.0[l] }
-        }))
+    fn differs(&self, i: usize, yes: Lanes<I>, no: Lanes<I>) -> Lanes<I> {
+        let apart = (Lanes::<I>::of(i as f64) - self.index).abs();
+        Lanes::<I>::of(0.5).select_less(apart, yes, no)
     }
 }
 
 /// An undamped root: `mu - w_o^2` and its first-order damping.
-struct Undamped {
-    root: Lanes,
-    damping: Lanes,
+struct Undamped<I: Instructions> {
+    root: Lanes<I>,
+    damping: Lanes<I>,
 }
 
 /// `c = x' C x / x' x` of the undamped shape, the damper of the stop included.
-struct DampingSums {
-    weighted: Lanes,
-    total: Lanes,
+struct DampingSums<I: Instructions> {
+    weighted: Lanes<I>,
+    total: Lanes<I>,
 }
 
-impl DampingSums {
+impl<I: Instructions> DampingSums<I> {
     #[inline(always)]
     fn new(coupling: &Coupling) -> Self {
         // sum z/(w_i^2 - mu) = -1 at a root, so the damper adds (c/k) in these units.
         Self {
-            weighted: Lanes::of(coupling.stop_damping / coupling.stiffness),
-            total: Lanes::of(0.0),
+            weighted: Lanes::<I>::of(coupling.stop_damping / coupling.stiffness),
+            total: Lanes::<I>::of(0.0),
         }
     }
 
     #[inline(always)]
-    fn add(&mut self, damping: f64, slope: Lanes) {
-        self.weighted += Lanes::of(damping) * slope;
+    fn add(&mut self, damping: f64, slope: Lanes<I>) {
+        self.weighted += Lanes::<I>::of(damping) * slope;
         self.total += slope;
     }
 
     #[inline(always)]
-    fn ratio(&self, _: &Coupling) -> Lanes {
+    fn ratio(&self) -> Lanes<I> {
         self.weighted / self.total
     }
 }
@@ -356,44 +371,43 @@ impl DampingSums {
 /// The zero of `constant + low/(a - y) + high/(b - y)` between a and b; `fallback` where the
 /// formula leaves the interval.
 #[inline(always)]
-fn middle_way(
-    constant: Lanes,
-    low: Lanes,
-    high: Lanes,
-    a: Lanes,
-    b: Lanes,
-    present: Lanes,
-) -> Lanes {
+fn middle_way<I: Instructions>(
+    constant: Lanes<I>,
+    low: Lanes<I>,
+    high: Lanes<I>,
+    a: Lanes<I>,
+    b: Lanes<I>,
+    present: Lanes<I>,
+) -> Lanes<I> {
     // With x = y - present the poles lie at da < 0 < db.
     let (da, db) = (a - present, b - present);
     let linear = constant * (da + db) + low + high;
     let last = constant * da * db + low * db + high * da;
-    let discriminant = (linear * linear - Lanes::of(4.0) * constant * last).max(Lanes::of(0.0));
+    let discriminant = (linear * linear - Lanes::<I>::of(4.0) * constant * last).max(Lanes::<I>::of(0.0));
     let root = discriminant.sqrt();
-    Lanes(std::array::from_fn(|l| {
-        let x = if linear.0[l] <= 0.0 {
-            (linear.0[l] - root.0[l]) / (2.0 * constant.0[l])
-        } else {
-            2.0 * last.0[l] / (linear.0[l] + root.0[l])
-        };
-        let inside = x > da.0[l] && x < db.0[l];
-        let y = present.0[l] + x;
-        let tame = y > a.0[l] && y < b.0[l];
-        if inside && tame { y } else { 0.5 * (a.0[l] + b.0[l]) }
-    }))
+    let zero = Lanes::<I>::of(0.0);
+    let two = Lanes::<I>::of(2.0);
+    let x = zero.select_less(
+        linear,
+        two * last / (linear + root),
+        (linear - root) / (two * constant),
+    );
+    let y = present + x;
+    let middle = Lanes::<I>::of(0.5) * (a + b);
+    a.select_less(y, y.select_less(b, y, middle), middle)
 }
 
 /// Eigenvalues as distances from their nearest poles.
-struct Eigenvalue {
-    origin: Nearest,
-    pole: Complex<Lanes>,
-    delta: Complex<Lanes>,
-    value: Complex<Lanes>,
+struct Eigenvalue<I: Instructions> {
+    origin: Nearest<I>,
+    pole: Complex<Lanes<I>>,
+    delta: Complex<Lanes<I>>,
+    value: Complex<Lanes<I>>,
 }
 
-impl Eigenvalue {
+impl<I: Instructions> Eigenvalue<I> {
     #[inline(always)]
-    fn new(origin: Nearest, pole: Complex<Lanes>) -> Self {
+    fn new(origin: Nearest<I>, pole: Complex<Lanes<I>>) -> Self {
         Self {
             origin,
             pole,
@@ -403,22 +417,22 @@ impl Eigenvalue {
     }
 
     #[inline(always)]
-    fn set(&mut self, delta: Complex<Lanes>) {
+    fn set(&mut self, delta: Complex<Lanes<I>>) {
         self.delta = delta;
         self.value = self.pole + delta;
     }
 
     /// `D_o(s) = delta (2 p_o + c_o + delta)`
     #[inline(always)]
-    fn own_pole(&self) -> Complex<Lanes> {
+    fn own_pole(&self) -> Complex<Lanes<I>> {
         self.delta * (self.pole + self.value).plus(self.origin.damping)
     }
 
     /// `D_i(s) = (w_i^2 - w_o^2) + (c_i - c_o) p_o + delta (2 p_o + c_i + delta)`
     #[inline(always)]
-    fn pole(&self, coupling: &Coupling, i: usize) -> Complex<Lanes> {
-        let damping = Lanes::of(coupling.damping[i]);
-        let apart = Lanes::of(coupling.omega2[i]) - self.origin.omega2;
+    fn pole(&self, coupling: &Coupling, i: usize) -> Complex<Lanes<I>> {
+        let damping = Lanes::<I>::of(coupling.damping[i]);
+        let apart = Lanes::<I>::of(coupling.omega2[i]) - self.origin.omega2;
         let drift = self.pole.scale(damping - self.origin.damping);
         let near = self.delta * (self.pole + self.value).plus(damping);
         (near + drift).plus(apart)

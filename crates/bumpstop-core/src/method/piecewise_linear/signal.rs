@@ -2,9 +2,9 @@
 
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
-use super::spectrum::{Rows, Spectrum};
-use crate::law::{Guard, Local};
-use crate::number::{Complex, LANES, Lanes, Number};
+use super::spectrum::{Rows, Spectrum, View};
+use crate::law::{COORDINATES, Guard};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
 /// Exponents with `|lambda| r` below this are followed by their Taylor polynomial over a cell of
 /// half-width r, faster ones are bounded by their size: both cost about the same here.
@@ -44,13 +44,13 @@ pub(crate) struct Instant<'a> {
 
 impl Signal {
     /// The constant factor free signal `sum position . x + velocity . x'` of one law's local
-    /// coordinates, whose views start at `first_view`.
+    /// coordinates, seen through `views`.
     #[inline(always)]
-    pub(crate) fn set(
+    pub(crate) fn set<I: Instructions>(
         &mut self,
         phases: &Phases,
         phase: Phase,
-        first_view: usize,
+        views: &[View],
         guard: &Guard,
         remaining: f64,
     ) {
@@ -60,9 +60,9 @@ impl Signal {
         self.specials.clear();
         let (re, im) = phases.amplitudes(phase);
         for o in (0..spectrum.exponents()).step_by(LANES) {
-            let lambda = spectrum.lambda.lanes(0, o);
-            let amplitude = Complex::new(Lanes::load(&re[o..]), Lanes::load(&im[o..]));
-            let weight = weights(spectrum, first_view, guard, lambda, o);
+            let lambda = spectrum.lambda.lanes::<I>(0, o);
+            let amplitude = Complex::new(Lanes::<I>::load(&re[o..]), Lanes::<I>::load(&im[o..]));
+            let weight = weights(views, guard, lambda, o);
             let b = weight * amplitude;
             let first = b * lambda;
             self.terms[0].put(0, o, b);
@@ -81,8 +81,8 @@ impl Signal {
             guard.position.iter().zip(guard.velocity).enumerate()
         {
             if *position != 0.0 || velocity != 0.0 {
-                let view = first_view + coordinate;
-                self.polynomial[0] += position * spectrum.views[view].rest;
+                let view = &views[coordinate];
+                self.polynomial[0] += position * view.rest;
                 self.add_singles(phases, phase, view, *position, velocity, remaining);
             }
         }
@@ -100,14 +100,13 @@ impl Signal {
         &mut self,
         phases: &Phases,
         phase: Phase,
-        view: usize,
+        view: &View,
         of_position: f64,
         of_velocity: f64,
         remaining: f64,
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
-        let weights = &spectrum.views[view].singles;
-        for (single, weight) in weights.iter().enumerate() {
+        for (single, weight) in view.singles.iter().enumerate() {
             if *weight == 0.0 {
                 continue;
             }
@@ -212,13 +211,13 @@ impl Signal {
 
     /// Makes the signal positive just after the start of the phase; tells whether it is so at
     /// the start already.
-    pub(crate) fn orient(&mut self, phases: &Phases, phase: Phase) -> bool {
+    pub(crate) fn orient<I: Instructions>(&mut self, phases: &Phases, phase: Phase) -> bool {
         let ones = super::event::ones(self.size.len());
         let at = Instant {
             time: 0.0,
             exponentials: &ones,
         };
-        let values = self.values(phases, phase, &at);
+        let values = self.values::<I>(phases, phase, &at);
         let starts = values[0].abs() > self.rounding(0.0);
         let sign = if starts { values[0] } else { values[1] };
         if sign < 0.0 {
@@ -267,23 +266,23 @@ impl Signal {
 
     /// Value and first two derivatives, all terms summed.
     #[inline(always)]
-    pub(crate) fn values(&self, phases: &Phases, phase: Phase, at: &Instant<'_>) -> [f64; 3] {
-        let mut sums = [Lanes::of(0.0); 3];
+    pub(crate) fn values<I: Instructions>(&self, phases: &Phases, phase: Phase, at: &Instant<'_>) -> [f64; 3] {
+        let mut sums = [Lanes::<I>::of(0.0); 3];
         for o in (0..self.size.len()).step_by(LANES) {
-            let e = at.exponentials.lanes(0, o);
+            let e = at.exponentials.lanes::<I>(0, o);
             for (sum, terms) in sums.iter_mut().zip(&self.terms) {
                 *sum += terms.lanes(0, o).real_product(e);
             }
         }
-        let mut values = sums.map(Lanes::total);
+        let mut values = [sums[0].total(), sums[1].total(), sums[2].total()];
         self.add_slow(phases, phase, at.time, &mut values);
         values
     }
 
     /// The value alone.
     #[inline(always)]
-    pub(crate) fn value(&self, phases: &Phases, phase: Phase, at: &Instant<'_>) -> f64 {
-        let mut sum = Lanes::of(0.0);
+    pub(crate) fn value<I: Instructions>(&self, phases: &Phases, phase: Phase, at: &Instant<'_>) -> f64 {
+        let mut sum = Lanes::<I>::of(0.0);
         for o in (0..self.size.len()).step_by(LANES) {
             sum += self.terms[0].lanes(0, o).real_product(at.exponentials.lanes(0, o));
         }
@@ -313,7 +312,7 @@ impl Signal {
     /// The jet at `at`, valid over `reach` to both sides (or to the right alone). `sizes` bounds
     /// the moduli of the exponentials there.
     #[inline(always)]
-    pub(crate) fn jet(
+    pub(crate) fn jet<I: Instructions>(
         &self,
         phases: &Phases,
         phase: Phase,
@@ -322,26 +321,26 @@ impl Signal {
         moduli: &[f64],
         reach: f64,
     ) -> Jet {
-        let limit = Lanes::of(FOLLOWED / reach);
-        let (one, zero) = (Lanes::of(1.0), Lanes::of(0.0));
+        let limit = Lanes::<I>::of(FOLLOWED / reach);
+        let (one, zero) = (Lanes::<I>::of(1.0), Lanes::<I>::of(0.0));
         let mut sums = [zero; 3];
         let mut third = zero;
         let mut rest = [zero; 3];
         for o in (0..self.size.len()).step_by(LANES) {
-            let modulus = Lanes::load(&moduli[o..]);
+            let modulus = Lanes::<I>::load(&moduli[o..]);
             let slow = modulus.select_less(limit, one, zero);
             let e = at.exponentials.lanes(0, o);
             for (sum, terms) in sums.iter_mut().zip(&self.terms) {
                 *sum += slow * terms.lanes(0, o).real_product(e);
             }
-            let size = Lanes::load(&self.size[o..]) * Lanes::load(&sizes[o..]);
+            let size = Lanes::<I>::load(&self.size[o..]) * Lanes::<I>::load(&sizes[o..]);
             let fast = (one - slow) * size;
             rest[0] += fast;
             rest[1] += fast * modulus;
             rest[2] += fast * modulus * modulus;
             third += slow * size * modulus * modulus * modulus;
         }
-        let mut values = sums.map(Lanes::total);
+        let mut values = [sums[0].total(), sums[1].total(), sums[2].total()];
         self.add_slow(phases, phase, at.time, &mut values);
         let specials: f64 = self.specials.iter().map(|s| s.third).sum();
         Jet {
@@ -349,7 +348,7 @@ impl Signal {
             slope: values[1],
             curvature: values[2],
             third: third.total() + specials,
-            rest: rest.map(Lanes::total),
+            rest: [rest[0].total(), rest[1].total(), rest[2].total()],
             rounding: self.rounding(at.time + reach),
         }
     }
@@ -357,27 +356,20 @@ impl Signal {
 
 /// `position . view + velocity . view lambda` for eight exponents.
 #[inline(always)]
-fn weights(
-    spectrum: &Spectrum,
-    first_view: usize,
+fn weights<I: Instructions>(
+    views: &[View],
     guard: &Guard,
-    lambda: Complex<Lanes>,
+    lambda: Complex<Lanes<I>>,
     offset: usize,
-) -> Complex<Lanes> {
+) -> Complex<Lanes<I>> {
     let mut total = Complex::zero();
-    let factors: [(f64, f64); 3] =
-        std::array::from_fn(|i| pair(&guard.position, &guard.velocity, i));
-    for (coordinate, (position, velocity)) in factors.into_iter().enumerate() {
+    for coordinate in 0..COORDINATES {
+        let (position, velocity) = (guard.position[coordinate], guard.velocity[coordinate]);
         if position != 0.0 || velocity != 0.0 {
-            let view = spectrum.views[first_view + coordinate].exponents.lanes(0, offset);
-            let factor = lambda.scale(Lanes::of(velocity)).plus(Lanes::of(position));
+            let view = views[coordinate].exponents.lanes(0, offset);
+            let factor = lambda.scale(Lanes::<I>::of(velocity)).plus(Lanes::<I>::of(position));
             total += view * factor;
         }
     }
     total
-}
-
-#[inline(always)]
-fn pair(position: &Local<f64>, velocity: &Local<f64>, i: usize) -> (f64, f64) {
-    (position[i], velocity[i])
 }

@@ -4,7 +4,7 @@
 //! exponentials), drift without stiffness, and two that no sum of exponentials serves well:
 //! near critical damping, and so slow that the whole run is a small part of a period.
 
-use crate::number::{Complex, exp, sin_cos};
+use crate::number::{Complex, Number};
 
 /// Slow: `w T` and `c T` below this over the run's length T.
 const SLOW: f64 = 0.05;
@@ -171,7 +171,7 @@ impl SingleMode {
         let x = x0 - static_part;
         let discriminant = half * half - self.omega2;
         let (cosh, sinhc) = hyperbolic(discriminant * t * t);
-        let decay = exp(-half * t);
+        let decay = Number::exp(-half * t);
         let (c, s) = (decay * cosh, decay * t * sinhc);
         (
             static_part + x * c + (v0 + half * x) * s,
@@ -208,13 +208,13 @@ impl SingleMode {
                 0.25 * ((z * z) * lambda.recip()).re + 0.25 * z.norm2() / lambda.re
             }),
             Regime::Overdamped { slow, fast } => between(&|t| {
-                let a = amplitudes[0].re * slow * exp(slow * t);
-                let b = amplitudes[1].re * fast * exp(fast * t);
+                let a = amplitudes[0].re * slow * Number::exp(slow * t);
+                let b = amplitudes[1].re * fast * Number::exp(fast * t);
                 0.5 * (a * a / slow + b * b / fast) + 2.0 * a * b / (slow + fast)
             }),
             Regime::Coasting => between(&|t| {
                 let drift = self.force / c;
-                let z = (v0 - drift) * exp(-c * t);
+                let z = (v0 - drift) * Number::exp(-c * t);
                 drift * drift * t - (2.0 * drift * z + 0.5 * z * z) / c
             }),
             Regime::NearCritical => self.lyapunov(x0, v0) - {
@@ -250,11 +250,11 @@ fn hyperbolic(z: f64) -> (f64, f64) {
         (cosh, sinhc)
     } else if z > 0.0 {
         let root = z.sqrt();
-        let (up, down) = (exp(root), exp(-root));
+        let (up, down) = (Number::exp(root), Number::exp(-root));
         (0.5 * (up + down), 0.5 * (up - down) / root)
     } else {
         let root = (-z).sqrt();
-        let (sin, cos) = sin_cos(root);
+        let (sin, cos) = Number::sin_cos(root);
         (cos, sin / root)
     }
 }

@@ -10,7 +10,7 @@ use super::secular::Coupling;
 use super::single_mode::SingleMode;
 use crate::error::Result;
 use crate::law::{COORDINATES, Law, Piece, State};
-use crate::number::{Complex, LANES, Lanes, Number, padded, sum};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number, padded};
 use crate::problem::Problem;
 
 /// Complex numbers in arrays of whole lanes, rows of `stride`.
@@ -32,14 +32,19 @@ impl Rows {
 
     /// Eight entries of a row.
     #[inline(always)]
-    pub(crate) fn lanes(&self, row: usize, offset: usize) -> Complex<Lanes> {
+    pub(crate) fn lanes<I: Instructions>(&self, row: usize, offset: usize) -> Complex<Lanes<I>> {
         let at = row * self.stride + offset;
-        Complex::new(Lanes::load(&self.re[at..]), Lanes::load(&self.im[at..]))
+        Complex::new(Lanes::<I>::load(&self.re[at..]), Lanes::<I>::load(&self.im[at..]))
     }
 
     /// Writes eight entries of a row.
     #[inline(always)]
-    pub(crate) fn put(&mut self, row: usize, offset: usize, value: Complex<Lanes>) {
+    pub(crate) fn put<I: Instructions>(
+        &mut self,
+        row: usize,
+        offset: usize,
+        value: Complex<Lanes<I>>,
+    ) {
         let at = row * self.stride + offset;
         value.re.store(&mut self.re[at..]);
         value.im.store(&mut self.im[at..]);
@@ -130,7 +135,7 @@ pub(crate) enum Secular {
 impl Spectrum {
     /// Solves the eigenproblem for the laws in the given states.
     #[inline(always)]
-    pub(crate) fn new<L: Law>(
+    pub(crate) fn new<I: Instructions, L: Law>(
         problem: &Problem<L>,
         states: &[State],
         secular: Secular,
@@ -138,7 +143,7 @@ impl Spectrum {
         let acting = Acting::new(problem, states);
         let mut spectrum = match acting.as_slice() {
             [] => Self::empty(states),
-            [one] => Self::of_one_spring(problem, states, one, secular)?,
+            [one] => Self::of_one_spring::<I, L>(problem, states, one, secular)?,
             several => dense::spectrum(problem, states, several)?,
         };
         spectrum.add_singles(problem);
@@ -148,7 +153,7 @@ impl Spectrum {
             .fold(0.0f64, |m, (re, im)| m.max(re * re + im * im))
             .sqrt();
         spectrum.views = (problem.laws.iter().flat_map(Law::rows))
-            .map(|row| View::new(&spectrum, row))
+            .map(|row| View::new::<I>(&spectrum, row))
             .collect();
         Ok(spectrum)
     }
@@ -177,7 +182,7 @@ impl Spectrum {
 
     /// One spring and damper: the secular equation, or the dense problem where it declines.
     #[inline(always)]
-    fn of_one_spring<L: Law>(
+    fn of_one_spring<I: Instructions, L: Law>(
         problem: &Problem<L>,
         states: &[State],
         law: &Acting,
@@ -197,12 +202,12 @@ impl Spectrum {
         spectrum.group_damping.clone_from(&coupling.damping);
         spectrum.at_rest = static_groups(coupling, &forces, law.constant);
         let roots = match secular {
-            Secular::Try => coupling.solve(),
+            Secular::Try => coupling.solve::<I>(),
             Secular::Skip => None,
         };
         spectrum.is_secular = roots.is_some();
         match roots {
-            Some(roots) => spectrum.set_secular(coupling, roots),
+            Some(roots) => spectrum.set_secular::<I>(coupling, roots),
             None => dense::set_coupled(&mut spectrum, coupling)?,
         }
         Ok(spectrum)
@@ -211,7 +216,7 @@ impl Spectrum {
     /// Shapes and left vectors from the roots of the secular equation: with psi_i = phi_i/D_i,
     /// `a = 2 psi'[(lambda + C) y + y'] / (psi' (2 lambda + C) psi)`, C with the stop's damper.
     #[inline(always)]
-    fn set_secular(&mut self, coupling: &Coupling, roots: super::secular::Roots) {
+    fn set_secular<I: Instructions>(&mut self, coupling: &Coupling, roots: super::secular::Roots) {
         let n = coupling.omega2.len();
         let stride = roots.stride;
         self.coupled_stride = stride;
@@ -227,8 +232,8 @@ impl Spectrum {
         };
         self.left_position = Rows::zeros(n, stride);
         self.left_velocity = Rows::zeros(n, stride);
-        let (k, c) = (Lanes::of(coupling.stiffness), Lanes::of(coupling.stop_damping));
-        let two = Lanes::of(2.0);
+        let (k, c) = (Lanes::<I>::of(coupling.stiffness), Lanes::<I>::of(coupling.stop_damping));
+        let two = Lanes::<I>::of(2.0);
         for o in (0..stride).step_by(LANES) {
             let lambda = self.lambda.lanes(0, o);
             // phi' psi = -1/kappa at a root.
@@ -236,16 +241,16 @@ impl Spectrum {
             let contact = safe_recip(kappa);
             let mut norm = (contact * contact).scale(c);
             for i in 0..n {
-                let psi = self.shape.lanes(i, o).scale(Lanes::of(coupling.phi[i]));
+                let psi = self.shape.lanes(i, o).scale(Lanes::<I>::of(coupling.phi[i]));
                 self.shape.put(i, o, psi);
-                let rate = lambda.scale(two).plus(Lanes::of(coupling.damping[i]));
+                let rate = lambda.scale(two).plus(Lanes::<I>::of(coupling.damping[i]));
                 norm += psi * psi * rate;
             }
             let factor = safe_recip(norm).scale(two);
             for i in 0..n {
                 let psi = self.shape.lanes(i, o) * factor;
-                let damper = (contact * factor).scale(c * Lanes::of(coupling.phi[i]));
-                let with_rate = psi * lambda.plus(Lanes::of(coupling.damping[i]));
+                let damper = (contact * factor).scale(c * Lanes::<I>::of(coupling.phi[i]));
+                let with_rate = psi * lambda.plus(Lanes::<I>::of(coupling.damping[i]));
                 self.left_velocity.put(i, o, psi);
                 self.left_position.put(i, o, with_rate - damper);
             }
@@ -338,9 +343,10 @@ impl Spectrum {
 
     /// `exp(lambda t)` for all exponents.
     #[inline(always)]
-    pub(crate) fn exponentials(&self, t: f64, to: &mut Rows) {
+    pub(crate) fn exponentials<I: Instructions>(&self, t: f64, to: &mut Rows) {
         for o in (0..self.exponents()).step_by(LANES) {
-            to.put(0, o, self.lambda.lanes(0, o).scale(Lanes::of(t)).exp());
+            let exponents: Complex<Lanes<I>> = self.lambda.lanes(0, o);
+            to.put(0, o, exponents.scale(Lanes::<I>::of(t)).exp());
         }
     }
 
@@ -355,13 +361,13 @@ impl Spectrum {
 
     /// Amplitudes of the coupled exponents from the groups' state.
     #[inline(always)]
-    pub(crate) fn amplitudes(&self, position: &[f64], velocity: &[f64], to: &mut Rows) {
+    pub(crate) fn amplitudes<I: Instructions>(&self, position: &[f64], velocity: &[f64], to: &mut Rows) {
         for o in (0..self.coupled_stride).step_by(LANES) {
-            let mut total = Complex::zero();
+            let mut total = Complex::<Lanes<I>>::zero();
             for g in 0..self.groups {
-                let y = Lanes::of(position[g] - self.at_rest[g]);
+                let y = Lanes::<I>::of(position[g] - self.at_rest[g]);
                 total += self.left_position.lanes(g, o).scale(y);
-                total += self.left_velocity.lanes(g, o).scale(Lanes::of(velocity[g]));
+                total += self.left_velocity.lanes(g, o).scale(Lanes::<I>::of(velocity[g]));
             }
             to.put(0, o, total);
         }
@@ -369,10 +375,12 @@ impl Spectrum {
 
     /// `Re sum_j shape_gj z_j` over the coupled exponents.
     #[inline(always)]
-    pub(crate) fn group_sum(&self, group: usize, z: &Rows) -> f64 {
-        sum(self.coupled_stride, |o| {
-            self.shape.lanes(group, o).real_product(z.lanes(0, o))
-        })
+    pub(crate) fn group_sum<I: Instructions>(&self, group: usize, z: &Rows) -> f64 {
+        let mut total = Lanes::<I>::of(0.0);
+        for o in (0..self.coupled_stride).step_by(LANES) {
+            total += self.shape.lanes::<I>(group, o).real_product(z.lanes(0, o));
+        }
+        total.total()
     }
 }
 
@@ -389,14 +397,14 @@ pub(crate) struct View {
 
 impl View {
     #[inline(always)]
-    fn new(spectrum: &Spectrum, row: &[f64]) -> Self {
+    pub(crate) fn new<I: Instructions>(spectrum: &Spectrum, row: &[f64]) -> Self {
         let mut combined = vec![0.0; spectrum.combinations];
         spectrum.gather(row, &mut combined);
         let mut exponents = Rows::zeros(1, spectrum.exponents());
         for o in (0..spectrum.coupled_stride).step_by(LANES) {
-            let mut total = Complex::zero();
+            let mut total = Complex::<Lanes<I>>::zero();
             for (g, weight) in combined.iter().enumerate() {
-                total += spectrum.shape.lanes(g, o).scale(Lanes::of(*weight));
+                total += spectrum.shape.lanes(g, o).scale(Lanes::<I>::of(*weight));
             }
             exponents.put(0, o, total);
         }
@@ -550,9 +558,9 @@ fn static_groups(coupling: &Coupling, forces: &[f64], constant: f64) -> Vec<f64>
 
 /// Reciprocal, zero for zero (the padding of the lanes).
 #[inline(always)]
-fn safe_recip(z: Complex<Lanes>) -> Complex<Lanes> {
+fn safe_recip<I: Instructions>(z: Complex<Lanes<I>>) -> Complex<Lanes<I>> {
     let norm = z.norm2();
-    let zero = Lanes::of(0.0);
-    let inverse = zero.select_less(norm, Lanes::of(1.0) / norm, zero);
+    let zero = Lanes::<I>::of(0.0);
+    let inverse = zero.select_less(norm, Lanes::<I>::of(1.0) / norm, zero);
     z.conj().scale(inverse)
 }

@@ -1,0 +1,230 @@
+//! Eight numbers side by side, in the machine's vector registers.
+
+mod instructions;
+mod plain;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use instructions::{Instructions, Vectorised, dispatch};
+pub use plain::Plain;
+
+use super::{Bits, Number, elementary};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// How many numbers a [`Lanes`] holds, on every machine, so that sums have one order.
+pub const LANES: usize = 8;
+
+/// Eight numbers, each lane a [`Number`] of its own; `I` says by which instructions.
+///
+/// All instruction sets give the same bits: none of them fuses, and sums have one order.
+#[derive(Clone, Copy)]
+pub struct Lanes<I: Instructions>(I::Vector);
+
+impl<I: Instructions> Lanes<I> {
+    /// Eight given numbers.
+    #[inline(always)]
+    pub fn new(numbers: [f64; LANES]) -> Self {
+        Self(I::load(&numbers))
+    }
+
+    /// Eight consecutive numbers.
+    ///
+    /// # Panics
+    /// When fewer than eight are there.
+    #[inline(always)]
+    pub fn load(from: &[f64]) -> Self {
+        Self(I::load(first_eight(from)))
+    }
+
+    /// Writes the eight numbers.
+    ///
+    /// # Panics
+    /// When there is room for fewer than eight.
+    #[inline(always)]
+    pub fn store(self, to: &mut [f64]) {
+        I::store(self.0, first_eight_mut(to));
+    }
+
+    /// The eight numbers.
+    #[inline(always)]
+    pub fn numbers(self) -> [f64; LANES] {
+        let mut numbers = [0.0; LANES];
+        I::store(self.0, &mut numbers);
+        numbers
+    }
+
+    /// Sum of the lanes, pairwise, in one fixed order.
+    #[inline(always)]
+    pub fn total(self) -> f64 {
+        let a = self.numbers();
+        ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]))
+    }
+}
+
+#[inline(always)]
+fn first_eight(from: &[f64]) -> &[f64; LANES] {
+    from.first_chunk().expect("whole lanes")
+}
+
+#[inline(always)]
+fn first_eight_mut(to: &mut [f64]) -> &mut [f64; LANES] {
+    to.first_chunk_mut().expect("whole lanes")
+}
+
+/// `length` rounded up to whole lanes.
+#[inline(always)]
+pub const fn padded(length: usize) -> usize {
+    length.div_ceil(LANES) * LANES
+}
+
+/// Copies `from` into a fresh vector of whole lanes, the rest filled with `rest`.
+pub fn fill(from: &[f64], rest: f64) -> Vec<f64> {
+    let mut lanes = vec![rest; padded(from.len())];
+    lanes[..from.len()].copy_from_slice(from);
+    lanes
+}
+
+/// Scalar product of two rows of whole lanes, in one fixed order.
+///
+/// Like all loops over lanes it has no closure in it: closures are not always inlined, and only
+/// inlined code is compiled for the chosen instructions.
+#[inline(always)]
+pub fn dot<I: Instructions>(a: &[f64], b: &[f64]) -> f64 {
+    let mut total = Lanes::<I>::of(0.0);
+    for o in (0..a.len()).step_by(LANES) {
+        total += Lanes::load(&a[o..]) * Lanes::load(&b[o..]);
+    }
+    total.total()
+}
+
+macro_rules! lane_by_lane {
+    ($($trait:ident $function:ident),*) => {$(
+        impl<I: Instructions> $trait for Lanes<I> {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self(I::$function(self.0, other.0))
+            }
+        }
+    )*};
+}
+lane_by_lane!(Add add, Sub sub, Mul mul, Div div);
+
+impl<I: Instructions> AddAssign for Lanes<I> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<I: Instructions> SubAssign for Lanes<I> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<I: Instructions> Neg for Lanes<I> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.xor(Self::of(-0.0))
+    }
+}
+
+impl<I: Instructions> Number for Lanes<I> {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        Self(I::splat(x))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(I::sqrt(self.0))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.and(f64::from_bits(!(1 << 63)))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        other.select_less(self, self, other)
+    }
+    #[inline(always)]
+    fn exp(self) -> Self {
+        elementary::exp(self)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        elementary::sin_cos(self)
+    }
+    #[inline(always)]
+    fn select_less(self, other: Self, yes: Self, no: Self) -> Self {
+        Self(I::select_less(self.0, other.0, yes.0, no.0))
+    }
+}
+
+impl<I: Instructions> Bits for Lanes<I> {
+    #[inline(always)]
+    fn and(self, mask: f64) -> Self {
+        Self(I::and(self.0, I::splat(mask)))
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        Self(I::xor(self.0, other.0))
+    }
+    #[inline(always)]
+    fn shift_left<const N: u32>(self) -> Self {
+        Self(I::shift_left::<N>(self.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    struct Everything([f64; LANES], [f64; LANES]);
+
+    impl Vectorised for Everything {
+        type Output = Vec<u64>;
+        #[inline(always)]
+        fn run<I: Instructions>(self) -> Vec<u64> {
+            let (a, b) = (Lanes::<I>::new(self.0), Lanes::<I>::new(self.1));
+            let (sin, cos) = (a * Lanes::of(50.0)).sin_cos();
+            let results = [
+                a + b,
+                a - b,
+                a * b,
+                a / b,
+                -a,
+                a.abs().sqrt(),
+                a.max(b),
+                a.exp(),
+                sin,
+                cos,
+                a.select_less(b, sin, cos),
+                Lanes::of((a * b).total()),
+            ];
+            results.iter().flat_map(|r| r.numbers().map(f64::to_bits)).collect()
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_best_instructions_give_the_bits_of_the_plain_ones(
+            a in prop::array::uniform8(-20.0f64..20.0), b in prop::array::uniform8(-20.0f64..20.0),
+        ) {
+            prop_assert_eq!(dispatch(Everything(a, b)), Everything(a, b).run::<Plain>());
+        }
+
+        #[test]
+        fn lanes_give_the_bits_of_single_numbers(a in prop::array::uniform8(-20.0f64..20.0)) {
+            let lanes = Lanes::<Plain>::new(a);
+            let (sin, cos) = lanes.sin_cos();
+            for i in 0..LANES {
+                prop_assert_eq!(lanes.exp().numbers()[i], Number::exp(a[i]));
+                prop_assert_eq!((sin.numbers()[i], cos.numbers()[i]), Number::sin_cos(a[i]));
+            }
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Eight numbers in an array, for machines without wider instructions.
+
+use super::{Instructions, LANES};
+
+/// Plain arithmetic.
+#[derive(Debug, Clone, Copy)]
+pub struct Plain;
+
+/// An expression for each lane.
+macro_rules! each {
+    ($i:ident => $value:expr) => {{
+        let mut lanes = [0.0; LANES];
+        for ($i, lane) in lanes.iter_mut().enumerate() {
+            *lane = $value;
+        }
+        lanes
+    }};
+}
+
+impl Instructions for Plain {
+    type Vector = [f64; LANES];
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self::Vector {
+        [x; LANES]
+    }
+    #[inline(always)]
+    fn load(from: &[f64; LANES]) -> Self::Vector {
+        *from
+    }
+    #[inline(always)]
+    fn store(x: Self::Vector, to: &mut [f64; LANES]) {
+        *to = x;
+    }
+    #[inline(always)]
+    fn add(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        each!(i => a[i] + b[i])
+    }
+    #[inline(always)]
+    fn sub(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        each!(i => a[i] - b[i])
+    }
+    #[inline(always)]
+    fn mul(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        each!(i => a[i] * b[i])
+    }
+    #[inline(always)]
+    fn div(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        each!(i => a[i] / b[i])
+    }
+    #[inline(always)]
+    fn sqrt(a: Self::Vector) -> Self::Vector {
+        each!(i => a[i].sqrt())
+    }
+    #[inline(always)]
+    fn and(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        each!(i => f64::from_bits(a[i].to_bits() & b[i].to_bits()))
+    }
+    #[inline(always)]
+    fn xor(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        each!(i => f64::from_bits(a[i].to_bits() ^ b[i].to_bits()))
+    }
+    #[inline(always)]
+    fn shift_left<const N: u32>(a: Self::Vector) -> Self::Vector {
+        each!(i => f64::from_bits(a[i].to_bits() << N))
+    }
+    #[inline(always)]
+    fn select_less(
+        a: Self::Vector,
+        b: Self::Vector,
+        yes: Self::Vector,
+        no: Self::Vector,
+    ) -> Self::Vector {
+        each!(i => if a[i] < b[i] { yes[i] } else { no[i] })
+    }
+}

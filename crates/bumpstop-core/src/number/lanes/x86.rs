@@ -1,0 +1,193 @@
+//! AVX2 and AVX-512.
+#![allow(unsafe_code)] // the intrinsics; each block says why it is sound
+
+use super::instructions::{Instructions, Vectorised};
+use super::{LANES, Plain};
+use std::arch::x86_64::*;
+
+/// Runs the work with the widest instructions that this machine has.
+#[inline]
+pub(super) fn dispatch<W: Vectorised>(work: W) -> W::Output {
+    if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+        // SAFETY: both features were just detected.
+        unsafe { with_avx512(work) }
+    } else if is_x86_feature_detected!("avx2") {
+        // SAFETY: the feature was just detected.
+        unsafe { with_avx2(work) }
+    } else {
+        work.run::<Plain>()
+    }
+}
+
+#[target_feature(enable = "avx512f,avx512dq")]
+fn with_avx512<W: Vectorised>(work: W) -> W::Output {
+    work.run::<Avx512>()
+}
+
+#[target_feature(enable = "avx2")]
+fn with_avx2<W: Vectorised>(work: W) -> W::Output {
+    work.run::<Avx2>()
+}
+
+/// One register of eight numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Avx512;
+
+/// Two registers of four numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Avx2;
+
+/// A function made of one intrinsic. Private to this file, `Avx512` and `Avx2` can only be named
+/// by [`dispatch`], which has detected their features.
+macro_rules! wide {
+    ($($function:ident($($argument:ident),*) = $intrinsic:ident;)*) => {$(
+        #[inline(always)]
+        fn $function($($argument: Self::Vector),*) -> Self::Vector {
+            // SAFETY: reached through `dispatch` alone, after AVX-512 was detected.
+            unsafe { $intrinsic($($argument),*) }
+        }
+    )*};
+}
+
+impl Instructions for Avx512 {
+    type Vector = __m512d;
+
+    wide! {
+        add(a, b) = _mm512_add_pd;
+        sub(a, b) = _mm512_sub_pd;
+        mul(a, b) = _mm512_mul_pd;
+        div(a, b) = _mm512_div_pd;
+        sqrt(a) = _mm512_sqrt_pd;
+        and(a, b) = _mm512_and_pd;
+        xor(a, b) = _mm512_xor_pd;
+    }
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self::Vector {
+        // SAFETY: as above.
+        unsafe { _mm512_set1_pd(x) }
+    }
+    #[inline(always)]
+    fn load(from: &[f64; LANES]) -> Self::Vector {
+        // SAFETY: as above; the array holds the eight numbers that are read, at any alignment.
+        unsafe { _mm512_loadu_pd(from.as_ptr()) }
+    }
+    #[inline(always)]
+    fn store(x: Self::Vector, to: &mut [f64; LANES]) {
+        // SAFETY: as above; the array has room for the eight numbers, at any alignment.
+        unsafe { _mm512_storeu_pd(to.as_mut_ptr(), x) }
+    }
+    #[inline(always)]
+    fn shift_left<const N: u32>(a: Self::Vector) -> Self::Vector {
+        // SAFETY: as above.
+        unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<N>(_mm512_castpd_si512(a))) }
+    }
+    #[inline(always)]
+    fn select_less(
+        a: Self::Vector,
+        b: Self::Vector,
+        yes: Self::Vector,
+        no: Self::Vector,
+    ) -> Self::Vector {
+        // SAFETY: as above.
+        unsafe { _mm512_mask_blend_pd(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b), no, yes) }
+    }
+}
+
+/// A function made of one intrinsic for each half.
+macro_rules! halves {
+    ($($function:ident($($argument:ident),*) = $intrinsic:ident;)*) => {$(
+        #[inline(always)]
+        fn $function($($argument: Self::Vector),*) -> Self::Vector {
+            // SAFETY: reached through `dispatch` alone, after AVX2 was detected.
+            unsafe { [$intrinsic($($argument[0]),*), $intrinsic($($argument[1]),*)] }
+        }
+    )*};
+}
+
+impl Instructions for Avx2 {
+    type Vector = [__m256d; 2];
+
+    halves! {
+        add(a, b) = _mm256_add_pd;
+        sub(a, b) = _mm256_sub_pd;
+        mul(a, b) = _mm256_mul_pd;
+        div(a, b) = _mm256_div_pd;
+        sqrt(a) = _mm256_sqrt_pd;
+        and(a, b) = _mm256_and_pd;
+        xor(a, b) = _mm256_xor_pd;
+    }
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self::Vector {
+        // SAFETY: as above.
+        unsafe { [_mm256_set1_pd(x); 2] }
+    }
+    #[inline(always)]
+    fn load(from: &[f64; LANES]) -> Self::Vector {
+        let (low, high) = from.split_at(LANES / 2);
+        // SAFETY: as above; each half of the array holds the four numbers that are read.
+        unsafe { [_mm256_loadu_pd(low.as_ptr()), _mm256_loadu_pd(high.as_ptr())] }
+    }
+    #[inline(always)]
+    fn store(x: Self::Vector, to: &mut [f64; LANES]) {
+        let (low, high) = to.split_at_mut(LANES / 2);
+        // SAFETY: as above; each half of the array has room for four numbers.
+        unsafe {
+            _mm256_storeu_pd(low.as_mut_ptr(), x[0]);
+            _mm256_storeu_pd(high.as_mut_ptr(), x[1]);
+        }
+    }
+    #[inline(always)]
+    fn shift_left<const N: u32>(a: Self::Vector) -> Self::Vector {
+        // SAFETY: as above.
+        let shift = |x: __m256d| unsafe {
+            let count = _mm_cvtsi32_si128(N as i32);
+            _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(x), count))
+        };
+        [shift(a[0]), shift(a[1])]
+    }
+    #[inline(always)]
+    fn select_less(
+        a: Self::Vector,
+        b: Self::Vector,
+        yes: Self::Vector,
+        no: Self::Vector,
+    ) -> Self::Vector {
+        // SAFETY: as above.
+        let half = |i: usize| unsafe {
+            _mm256_blendv_pd(no[i], yes[i], _mm256_cmp_pd::<_CMP_LT_OQ>(a[i], b[i]))
+        };
+        [half(0), half(1)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::{Lanes, Number};
+
+    struct Mix([f64; LANES]);
+
+    impl Vectorised for Mix {
+        type Output = [u64; LANES];
+        #[inline(always)]
+        fn run<I: Instructions>(self) -> [u64; LANES] {
+            let x = Lanes::<I>::new(self.0);
+            let (sin, cos) = x.sin_cos();
+            let mixed = (sin * cos - x / cos).select_less(x.exp(), -x.sqrt(), x.abs());
+            mixed.max(sin).numbers().map(f64::to_bits)
+        }
+    }
+
+    #[test]
+    fn avx2_gives_the_bits_of_plain_arithmetic() {
+        if !is_x86_feature_detected!("avx2") {
+            return;
+        }
+        let numbers = [0.0, -1.5, 2.25, 1e-9, 300.0, -0.1, 17.0, 1e6];
+        // SAFETY: the feature was just detected.
+        let found = unsafe { with_avx2(Mix(numbers)) };
+        assert_eq!(found, Mix(numbers).run::<Plain>());
+    }
+}
