@@ -112,6 +112,25 @@ def test_not_a_regular_file(refusal: Refusal) -> None:
     assert "is not a regular file" in refusal(Path("/dev/zero"))
 
 
+@pytest.mark.parametrize("height", ["1e308", "1e150"])
+def test_numbers_that_nothing_can_be_computed_with(
+    height: str, tmp_path: Path, refusal: Refusal
+) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(SDNL32.read_text().replace("height = 0.014", f"height = {height}"))
+    assert "too large or too small to compute with" in refusal(file)
+
+
+@pytest.mark.parametrize("depth", [100, 200, 300, 400])
+@pytest.mark.parametrize(("start", "end"), [("[", "]"), ("{a=", "}")])
+def test_nesting(depth: int, start: str, end: str, tmp_path: Path, refusal: Refusal) -> None:
+    file = tmp_path / "case.toml"
+    deep = f"{start * depth}1{end * depth}"
+    file.write_text(f"{SDNL32.read_text()}\n[variants.deep]\nx = {deep}\n")
+    line = refusal(file)
+    assert "is nested too deeply" in line or 'variants.deep."x' in line
+
+
 def test_several_mistakes_are_counted(tmp_path: Path, refusal: Refusal) -> None:
     file = tmp_path / "case.toml"
     text = SDNL32.read_text().replace("stiffness = 18e3 ", "stifness = 18e3 ")

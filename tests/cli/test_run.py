@@ -211,6 +211,15 @@ def test_what_could_not_be_computed_is_status_3(
     assert not (tmp_path / "out").exists()
 
 
+def test_numbers_that_overflow_are_status_3(call: Output, tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(SDNL32.read_text().replace("damping = 0.01 ", "damping = 1e308 "))
+    status, output, error = call("run", str(file))
+    assert (status, output) == (3, "")
+    assert "too large or too small to compute with" in error
+    assert error.count("\n") == 1
+
+
 def test_a_mistake_of_our_own_is_one_line_and_status_3(
     call: Output, monkeypatch: pytest.MonkeyPatch
 ) -> None:

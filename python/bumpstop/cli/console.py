@@ -5,17 +5,25 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 __all__ = ["Table", "print_json", "print_line", "print_table"]
 
 
 class Table(NamedTuple):
-    """Rows of texts; where a row is good or bad, its last cell says so in colour."""
+    """Rows of texts.
+
+    Where it is known which rows are good, their last cells say so in colour. The first
+    ``labels`` columns are words and start at the left, the others are numbers.
+    """
 
     headers: Sequence[str]
     rows: Sequence[Sequence[str]]
     good: Sequence[bool] | None = None
+    labels: int = 0
 
 
 def print_json(value: dict[str, Any]) -> None:
@@ -28,7 +36,7 @@ def print_json(value: dict[str, Any]) -> None:
 def print_line(text: str = "", *, style: str = "") -> None:
     """Print a line, in a style where the output is a terminal."""
     if sys.stdout.isatty():
-        _rich_console().print(text, style=style, markup=False, highlight=False)
+        _rich_console().print(text, style=style, markup=False, highlight=False, soft_wrap=True)
     else:
         print(text)
 
@@ -45,25 +53,30 @@ def _print_plain(table: Table) -> None:
     lines = [table.headers, *table.rows]
     widths = [max(len(cell) for cell in column) for column in zip(*lines, strict=True)]
     for line in lines:
-        cells = [cell.rjust(width) for cell, width in zip(line, widths, strict=True)]
+        cells = [
+            cell.ljust(width) if number < table.labels else cell.rjust(width)
+            for number, (cell, width) in enumerate(zip(line, widths, strict=True))
+        ]
         print("  " + "  ".join(cells).rstrip())
 
 
 def _print_rich(table: Table) -> None:
     from rich import box
+    from rich.padding import Padding
     from rich.table import Table as RichTable
     from rich.text import Text
 
-    drawn = RichTable(box=box.SIMPLE_HEAD, pad_edge=False, header_style="bold")
-    for header in table.headers:
-        drawn.add_column(header, justify="right")
+    drawn = RichTable(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    for number, header in enumerate(table.headers):
+        side: Literal["left", "right"] = "left" if number < table.labels else "right"
+        drawn.add_column(Text(header), justify=side)
     for number, row in enumerate(table.rows):
         style = "" if table.good is None else "green" if table.good[number] else "bold red"
         drawn.add_row(*map(Text, row[:-1]), Text(row[-1], style=style))
-    _rich_console().print(drawn)
+    _rich_console().print(Padding(drawn, (0, 0, 0, 2)))
 
 
-def _rich_console() -> Any:
+def _rich_console() -> Console:
     from rich.console import Console
 
     return Console()

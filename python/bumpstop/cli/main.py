@@ -16,7 +16,6 @@ from bumpstop.errors import BumpstopError
 
 __all__ = ["run_command_line"]
 
-INTERRUPTED = 130
 WRONG_INPUT = 2
 UNFINISHED = 3
 
@@ -32,9 +31,6 @@ def run_command_line(arguments: Sequence[str] | None) -> int:
     _replace_what_cannot_be_encoded()
     try:
         return _done(get_command(app).main(words, prog_name="bumpstop", standalone_mode=False))
-    except KeyboardInterrupt:
-        _say("interrupted")
-        return INTERRUPTED
     except BrokenPipeError:
         # Whoever read our output has seen enough; leave nothing for Python to flush at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -100,7 +100,7 @@ def _move_over(staging: Path, target: Path) -> None:
     if not target.exists():
         staging.rename(target)
         return
-    for file in staging.rglob("*.*"):
+    for file in [path for path in staging.rglob("*") if path.is_file()]:
         place = target / file.relative_to(staging)
         place.parent.mkdir(exist_ok=True)
         file.replace(place)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from time import monotonic
 
 __all__ = ["progress_display"]
 
@@ -24,12 +24,12 @@ def progress_display(title: str) -> Iterator[Callable[[float], None] | None]:
 
 
 def _teller(title: str, display: ExitStack) -> Callable[[float], None]:
-    started = time.monotonic()
+    started = monotonic()
     update: Callable[[float], None] | None = None
 
     def tell(fraction: float) -> None:
         nonlocal update
-        if update is None and time.monotonic() - started > PATIENCE:
+        if update is None and monotonic() - started > PATIENCE:
             update = _bar(title, display)
         if update is not None:
             update(fraction)

@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
 from bumpstop.arguments import did_you_mean
 from bumpstop.errors import ComputationError, InputError
 from bumpstop.io.case import Case
@@ -73,17 +75,19 @@ def solve_case(case: Case, method: str | None, progress: Progress) -> CaseResult
 def _solved(case: Case, name: str, method: str | None, progress: Progress) -> VariantResult:
     own_method, options = case.methods[name]
     chosen = method or own_method
+    used = options if chosen in FIXED_STEP_METHODS else MethodOptions()
     with _located(case, name), progress(f"{case.name}, {name}") as tell:
-        used = options if chosen in FIXED_STEP_METHODS else MethodOptions()
         response = simulate(case.problems[name], chosen, progress=tell, **used)
-    return VariantResult(name, response, check_references(response, case.references[name]))
+        checks = check_references(response, case.references[name])
+    return VariantResult(name, response, checks)
 
 
 @contextmanager
 def _located(case: Case, variant: str) -> Iterator[None]:
     """Say in which file and variant something was wrong or could not be finished."""
     try:
-        yield
+        with np.errstate(over="raise", invalid="raise", divide="raise"):
+            yield
     except InputError as error:
         raise InputError(
             error.what,
@@ -94,3 +98,6 @@ def _located(case: Case, variant: str) -> Iterator[None]:
         ) from error
     except ComputationError as error:
         raise ComputationError(f"{case.path}: variant {variant}: {error}") from error
+    except FloatingPointError as error:
+        what = "numbers grew too large or too small to compute with"
+        raise ComputationError(f"{case.path}: variant {variant}: {what}") from error

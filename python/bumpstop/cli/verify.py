@@ -48,9 +48,10 @@ def _cases(folder: Path) -> list[str]:
 def _table(results: Sequence[CaseResult]) -> Table:
     lines = [(result, variant) for result in results for variant in result.variants]
     return Table(
-        headers=("case", "variant", "method", "worst of its tolerance", "checks"),
+        headers=("case", "variant", "method", "of tolerance", "checks"),
         rows=[_row(result, variant) for result, variant in lines],
         good=[variant.passed for _, variant in lines],
+        labels=3,
     )
 
 

@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
 from bumpstop.errors import InputError
@@ -44,9 +45,15 @@ def load_case(path: str | PathLike[str]) -> Case:
     file = Path(path)
     document = read_document(file)
     try:
-        return _case(file, document)
+        with np.errstate(over="raise", invalid="raise", divide="raise"):
+            return _case(file, document)
     except InputError as error:
         raise error.located(file=str(file)) from error
+    except (OverflowError, FloatingPointError) as error:
+        what = "holds a number that is too large or too small to compute with"
+        raise InputError(what, file=str(file), hint="check the units") from error
+    except RecursionError as error:
+        raise InputError("is nested too deeply", file=str(file)) from error
 
 
 def _case(file: Path, document: dict[str, Any]) -> Case:
@@ -62,7 +69,7 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
         path=file,
         problems=problems,
         references=build_references(base.references, problems),
-        methods={name: _method(tables) for name, tables in variants.items()},
+        methods={variant: _method(tables) for variant, tables in variants.items()},
         method=method.name,
         method_options=method.options,
     )
