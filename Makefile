@@ -84,7 +84,7 @@ $(STAMPS)/%: requirements/%.txt $(STAMPS)/venv
 
 $(STAMPS)/core: $(STAMPS)/run $(CORE_SOURCES)
 	@sh tools/require-rust
-	@echo "Building the Rust core (the first time takes a minute or two)"
+	@echo "Building the Rust core (this takes some minutes)"
 	@mkdir -p target
 	@env -u CONDA_PREFIX VIRTUAL_ENV='$(CURDIR)/$(VENV)' \
 		$(BIN)/maturin develop --release --locked --quiet >target/build.log 2>&1 || \
