@@ -10,6 +10,7 @@ use bumpstop_core::method::{Method, simulate};
 use bumpstop_core::problem::Problem;
 use bumpstop_core::system::ModalSystem;
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
 const MODES: &str = include_str!("sdnl32_modes.txt");
@@ -30,7 +31,7 @@ fn spread(n: usize, step: f64) -> f64 {
     (n as f64 * step).fract()
 }
 
-fn problem(n: usize) -> Problem<Stop> {
+fn problem(n: usize) -> Arc<Problem<Stop>> {
     let [omega2, damping, tip] = columns();
     let stiffness = 5e3 + 95e3 * spread(n, 0.618_033_988_749_895);
     let rate = -6.0 + 5.0 * spread(n, 0.754_877_666_246_693);
@@ -40,7 +41,8 @@ fn problem(n: usize) -> Problem<Stop> {
     let system = ModalSystem::new(omega2, damping).expect("a system");
     let stop = Stop::new(tip, 0.0, stiffness, 0.0).expect("a stop");
     let forcing = Forcing::constant(vec![0.0; modes]).expect("no forces");
-    Problem::new(system, vec![stop], forcing, vec![0.0; modes], velocity, 0.02).expect("a problem")
+    let rest = vec![0.0; modes];
+    Arc::new(Problem::new(system, vec![stop], forcing, rest, velocity, 0.02).expect("a problem"))
 }
 
 fn median(mut times: Vec<f64>) -> f64 {
@@ -48,8 +50,12 @@ fn median(mut times: Vec<f64>) -> f64 {
     times[times.len() / 2]
 }
 
-fn time(problems: &[Problem<Stop>], method: Method, read: impl Fn(&History<Stop>) -> f64) -> f64 {
-    let run = |problem: &Problem<Stop>| {
+fn time(
+    problems: &[Arc<Problem<Stop>>],
+    method: Method,
+    read: impl Fn(&History<Stop>) -> f64,
+) -> f64 {
+    let run = |problem: &Arc<Problem<Stop>>| {
         let start = Instant::now();
         let history = simulate(problem, method, &mut |_| true).expect("a solution");
         black_box(read(&history));
@@ -60,6 +66,7 @@ fn time(problems: &[Problem<Stop>], method: Method, read: impl Fn(&History<Stop>
 
 fn main() {
     let problems: Vec<_> = (0..CASES).map(problem).collect();
+    let nothing = |_: &History<Stop>| 0.0;
     let step = Step {
         dt: 1e-5,
         beyond_stability_limit: false,
@@ -67,14 +74,28 @@ fn main() {
     let outputs: Vec<f64> = (1..=20).map(|n| f64::from(n) * 1e-3).collect();
     let [_, _, tip] = columns();
     let read_tip = |history: &History<Stop>| {
-        history.project(&tip, &outputs, Derivative::Displacement).expect("inside")[19]
+        history
+            .project(&tip, &outputs, Derivative::Displacement)
+            .expect("inside")[19]
     };
-    let nothing = |_: &History<Stop>| 0.0;
+
     let ledger = |h: &History<Stop>| read_tip(h) + h.energy_residual();
+    if std::env::var("PROF").is_ok() {
+        for _ in 0..3 {
+            time(&problems, Method::CentralDifference(step), nothing);
+        }
+        return;
+    }
     let rows = [
-        ("exact, integration alone", time(&problems, Method::Exact, nothing)),
+        (
+            "exact, integration alone",
+            time(&problems, Method::Exact, nothing),
+        ),
         ("exact", time(&problems, Method::Exact, read_tip)),
-        ("exact + energy ledger", time(&problems, Method::Exact, ledger)),
+        (
+            "exact + energy ledger",
+            time(&problems, Method::Exact, ledger),
+        ),
         (
             "central difference",
             time(&problems[..2000], Method::CentralDifference(step), read_tip),

@@ -37,9 +37,14 @@ impl Ledger {
     pub fn scale(&self) -> f64 {
         let laws = (self.law_stored.iter().chain(&self.law_dissipated))
             .fold(0.0f64, |m, e| m.max(e.abs()));
-        [self.kinetic, self.elastic, self.modal_dissipation, self.load_work]
-            .iter()
-            .fold(laws, |m, e| m.max(e.abs()))
+        [
+            self.kinetic,
+            self.elastic,
+            self.modal_dissipation,
+            self.load_work,
+        ]
+        .iter()
+        .fold(laws, |m, e| m.max(e.abs()))
     }
 }
 
@@ -50,7 +55,11 @@ pub fn residual<'a>(ledgers: impl Iterator<Item = &'a Ledger>) -> f64 {
     for ledger in ledgers {
         let start = *first.get_or_insert(ledger.balance());
         let change = (ledger.balance() - start).abs();
-        worst = if change > worst || change.is_nan() { change } else { worst };
+        worst = if change > worst || change.is_nan() {
+            change
+        } else {
+            worst
+        };
         scale = scale.max(ledger.scale());
     }
     if worst == 0.0 { 0.0 } else { worst / scale }

@@ -59,7 +59,9 @@ pub enum Error {
         limit: f64,
     },
     /// A run would keep more than fits in memory.
-    #[error("{steps} steps of {modes} modes need {gibibytes:.1} GiB of memory; take a larger step or a shorter run")]
+    #[error(
+        "{steps} steps of {modes} modes need {gibibytes:.1} GiB of memory; take a larger step or a shorter run"
+    )]
     TooManySteps {
         /// Number of steps.
         steps: usize,
@@ -81,7 +83,9 @@ pub enum Error {
         time: f64,
     },
     /// No spectrum of a phase passed its check.
-    #[error("the vibration modes with the laws' present states are too close to defective at t = {time:e} s to be separated (relative error {defect:.1e})")]
+    #[error(
+        "the vibration modes with the laws' present states are too close to defective at t = {time:e} s to be separated (relative error {defect:.1e})"
+    )]
     Defective {
         /// Instant at which the phase starts, in s.
         time: f64,

@@ -7,7 +7,7 @@ use crate::law::{Law, Local, State, project};
 use crate::method::fixed_step::StepRecord;
 use crate::method::piecewise_linear::PhaseRecord;
 use crate::problem::Problem;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// A switch of one law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,7 @@ enum Record {
 /// after it are given.
 #[derive(Debug, Clone)]
 pub struct History<L> {
-    problem: Problem<L>,
+    problem: Arc<Problem<L>>,
     method: &'static str,
     events: Vec<Event>,
     record: Record,
@@ -54,7 +54,7 @@ pub struct History<L> {
 
 impl<L: Law> History<L> {
     pub(crate) fn of_steps(
-        problem: &Problem<L>,
+        problem: &Arc<Problem<L>>,
         method: &'static str,
         record: StepRecord,
         events: Vec<Event>,
@@ -63,7 +63,7 @@ impl<L: Law> History<L> {
     }
 
     pub(crate) fn of_phases(
-        problem: &Problem<L>,
+        problem: &Arc<Problem<L>>,
         method: &'static str,
         record: PhaseRecord,
         events: Vec<Event>,
@@ -72,13 +72,13 @@ impl<L: Law> History<L> {
     }
 
     fn new(
-        problem: &Problem<L>,
+        problem: &Arc<Problem<L>>,
         method: &'static str,
         record: Record,
         events: Vec<Event>,
     ) -> Self {
         Self {
-            problem: problem.clone(),
+            problem: Arc::clone(problem),
             method,
             events,
             record,

@@ -100,7 +100,13 @@ fn normalised(mut shapes: Mat<f64>, mass: MatRef<f64>) -> Mat<f64> {
             .sum();
         let largest = (0..shapes.nrows())
             .map(|r| shapes[(r, c)])
-            .fold(0.0f64, |m, x| if x.abs() > m.abs() * (1.0 + 1e-9) { x } else { m });
+            .fold(0.0f64, |m, x| {
+                if x.abs() > m.abs() * (1.0 + 1e-9) {
+                    x
+                } else {
+                    m
+                }
+            });
         let factor = largest.signum() / modal_mass.sqrt();
         for r in 0..shapes.nrows() {
             shapes[(r, c)] *= factor;

@@ -142,7 +142,11 @@ impl History {
         let laws = self.inner.problem().laws.len();
         let dict = PyDict::new(py);
         let column = |term: fn(&Ledger) -> f64| -> Column<'py> {
-            ledgers.iter().map(term).collect::<Vec<_>>().into_pyarray(py)
+            ledgers
+                .iter()
+                .map(term)
+                .collect::<Vec<_>>()
+                .into_pyarray(py)
         };
         dict.set_item("kinetic", column(|l| l.kinetic))?;
         dict.set_item("elastic", column(|l| l.elastic))?;
@@ -191,7 +195,11 @@ impl History {
             ("energy_returned", |i| i.energy_returned),
         ];
         for (name, term) in columns {
-            let column: Column<'py> = impacts.iter().map(term).collect::<Vec<_>>().into_pyarray(py);
+            let column: Column<'py> = impacts
+                .iter()
+                .map(term)
+                .collect::<Vec<_>>()
+                .into_pyarray(py);
             dict.set_item(name, column)?;
         }
         Ok(dict)

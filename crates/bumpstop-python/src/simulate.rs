@@ -11,6 +11,7 @@ use bumpstop_core::problem::Problem;
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How often progress is told and interrupts are looked for.
@@ -43,6 +44,7 @@ pub fn simulate(
         values(&velocity),
         duration,
     )
+    .map(Arc::new)
     .map_err(core_error)?;
     let mut reporter = Reporter::new(progress, duration);
     let (solved, seconds) = py.detach(|| {
@@ -59,16 +61,14 @@ pub fn simulate(
 
 /// Largest stable step of a fixed-step method, in s.
 #[pyfunction]
-pub fn stability_limit(
-    system: &System,
-    laws: Vec<PyRef<'_, Stop>>,
-    method: &str,
-) -> PyResult<f64> {
+pub fn stability_limit(system: &System, laws: Vec<PyRef<'_, Stop>>, method: &str) -> PyResult<f64> {
     let laws: Vec<_> = laws.iter().map(|stop| stop.0.clone()).collect();
     match method {
         symplectic_euler::NAME => Ok(symplectic_euler::stability_limit(&system.0, &laws)),
         central_difference::NAME => Ok(central_difference::stability_limit(&system.0, &laws)),
-        _ => Err(PyValueError::new_err(format!("no fixed-step method '{method}'"))),
+        _ => Err(PyValueError::new_err(format!(
+            "no fixed-step method '{method}'"
+        ))),
     }
 }
 

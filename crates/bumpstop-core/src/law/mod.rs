@@ -81,8 +81,7 @@ pub trait Law: Clone + Send + Sync {
     fn sampled_state(&self, position: &Local<f64>, velocity: &Local<f64>) -> State;
 
     /// Force on the structure in local coordinates, in N.
-    fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>)
-    -> Local<T>;
+    fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T>;
 
     /// The state's matrices where it is linear.
     fn piece(&self, state: State) -> Option<Piece>;

@@ -59,8 +59,12 @@ impl Stop {
     /// `-k d - c d'`, the force before it is cut off at zero.
     #[inline(always)]
     fn push<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> T {
-        -(T::of(self.stiffness) * self.obstacle.distance(position)
-            + T::of(self.damping) * self.obstacle.rate(velocity))
+        let spring = T::of(self.stiffness) * self.obstacle.distance(position);
+        if self.damping == 0.0 {
+            // The velocity is known later than the position: do not wait for it in vain.
+            return -spring;
+        }
+        -(spring + T::of(self.damping) * self.obstacle.rate(velocity))
     }
 
     fn distance_guard(&self, name: &'static str, sign: f64) -> Guard {
@@ -117,15 +121,11 @@ impl Law for Stop {
     }
 
     #[inline(always)]
-    fn force<T: Number>(
-        &self,
-        state: State,
-        position: &Local<T>,
-        velocity: &Local<T>,
-    ) -> Local<T> {
+    fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
         let zero = T::of(0.0);
         let normal = if state == Self::CLOSED {
-            self.push(position, velocity)
+            // Rounding at a switch must not make it pull.
+            self.push(position, velocity).max(zero)
         } else {
             zero
         };

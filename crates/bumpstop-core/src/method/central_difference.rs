@@ -13,9 +13,10 @@ use super::{Observer, observe};
 use crate::error::Result;
 use crate::history::History;
 use crate::law::{Law, project};
-use crate::number::{Instructions, LANES, Lanes, Number, Vectorised, dispatch, dot, fill};
+use crate::number::{Block, Instructions, Lanes, Number, Vectorised, blocks, dispatch, dot};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
+use std::sync::Arc;
 
 /// The method's name.
 pub const NAME: &str = "central_difference";
@@ -30,7 +31,7 @@ pub fn stability_limit<L: Law>(system: &ModalSystem, laws: &[L]) -> f64 {
 /// # Errors
 /// See [`crate::error::Error`].
 pub fn simulate<L: Law>(
-    problem: &Problem<L>,
+    problem: &Arc<Problem<L>>,
     step: Step,
     observer: Observer<'_>,
 ) -> Result<History<L>> {
@@ -49,9 +50,9 @@ pub fn simulate<L: Law>(
 
 /// The scheme solved for `q[n+1] = own q[n] + past q[n-1] + gain f[n]`.
 struct Coefficients {
-    own: Vec<f64>,
-    past: Vec<f64>,
-    gain: Vec<f64>,
+    own: Vec<Block>,
+    past: Vec<Block>,
+    gain: Vec<Block>,
 }
 
 impl Coefficients {
@@ -60,7 +61,7 @@ impl Coefficients {
             let values: Vec<f64> = (system.omega2().iter().zip(system.damping()))
                 .map(|(w2, c)| f(*w2, 0.5 * c * dt))
                 .collect();
-            fill(&values, 0.0)
+            blocks(&values)
         };
         Self {
             own: each(&|w2, half| (2.0 - w2 * dt * dt) / (1.0 + half)),
@@ -97,14 +98,18 @@ fn march<I: Instructions, L: Law>(
 ) -> Result<()> {
     let dt = record.dt;
     let Coefficients { own, past, gain } = Coefficients::new(&problem.system, dt);
-    let constant = fill(problem.forcing.forces(), 0.0);
+    let load: Vec<f64> = (gain.as_flattened().iter().zip(problem.forcing.forces()))
+        .map(|(gain, force)| gain * force)
+        .collect();
+    let load = blocks(&load);
     let rows = laws.rows.clone();
     let coupling = row_products(&rows, &gain);
     let mut forces = vec![0.0; rows.len()];
-    let mut q = fill(&problem.displacement, 0.0);
-    let mut before = fill(&displacement_before(problem, dt), 0.0);
-    let mut free = vec![0.0; q.len()];
-    let mut local = LocalHistory::new::<I>(&rows, &before, &q, &fill(&problem.velocity, 0.0), dt);
+    let pushes: Vec<Vec<Block>> = rows.iter().map(|row| weighted(row, &gain)).collect();
+    let mut q = blocks(&problem.displacement);
+    let mut before = blocks(&displacement_before(problem, dt));
+    let mut free = q.clone();
+    let mut local = LocalHistory::new::<I>(&rows, &before, &q, &blocks(&problem.velocity), dt);
     record.push(&before);
     record.push(&q);
     for n in 0..=record.steps {
@@ -112,11 +117,11 @@ fn march<I: Instructions, L: Law>(
             observe(observer, n as f64 * dt)?;
         }
         laws.evaluate(n as f64 * dt, &local.now, &local.rate, &mut forces);
-        for o in (0..q.len()).step_by(LANES) {
-            let own = Lanes::<I>::load(&own[o..]) * Lanes::load(&q[o..]);
-            let past = Lanes::load(&past[o..]) * Lanes::load(&before[o..]);
-            let load = Lanes::load(&gain[o..]) * Lanes::load(&constant[o..]);
-            (own + past + load).store(&mut free[o..]);
+        let known = own.iter().zip(&q).zip(past.iter().zip(&before)).zip(&load);
+        for (free, (((own, q), (past, before)), load)) in free.iter_mut().zip(known) {
+            let own = Lanes::<I>::of_block(own) * Lanes::of_block(q);
+            let past = Lanes::of_block(past) * Lanes::of_block(before);
+            (own + past + Lanes::of_block(load)).to_block(free);
         }
         for (r, row) in rows.iter().enumerate() {
             let mut pushed = 0.0;
@@ -125,18 +130,22 @@ fn march<I: Instructions, L: Law>(
             }
             local.push(r, dot::<I>(row, &free) + pushed, dt);
         }
-        for o in (0..q.len()).step_by(LANES) {
-            let mut pushed = Lanes::<I>::of(0.0);
-            for (row, force) in rows.iter().zip(&forces) {
-                pushed += Lanes::load(&row[o..]) * Lanes::of(*force);
+        for (push, force) in pushes.iter().zip(&forces) {
+            let force = Lanes::<I>::of(*force);
+            for (free, push) in free.iter_mut().zip(push) {
+                (Lanes::of_block(free) + Lanes::of_block(push) * force).to_block(free);
             }
-            Lanes::<I>::load(&q[o..]).store(&mut before[o..]);
-            let next = Lanes::load(&free[o..]) + Lanes::load(&gain[o..]) * pushed;
-            next.store(&mut q[o..]);
         }
+        std::mem::swap(&mut before, &mut q);
+        std::mem::swap(&mut q, &mut free);
         record.push(&q);
     }
     Ok(())
+}
+
+fn weighted(row: &[Block], weight: &[Block]) -> Vec<Block> {
+    let both = row.as_flattened().iter().zip(weight.as_flattened());
+    blocks(&both.map(|(r, w)| r * w).collect::<Vec<_>>())
 }
 
 /// Local positions at three steps and the rate of the latest, one entry a row.
@@ -149,10 +158,10 @@ struct LocalHistory {
 impl LocalHistory {
     #[inline(always)]
     fn new<I: Instructions>(
-        rows: &[Vec<f64>],
-        before: &[f64],
-        q: &[f64],
-        v: &[f64],
+        rows: &[Vec<Block>],
+        before: &[Block],
+        q: &[Block],
+        v: &[Block],
         dt: f64,
     ) -> Self {
         let mut history = Self {

@@ -4,7 +4,7 @@
 use crate::error::{Error, Result};
 use crate::history::Event;
 use crate::law::{COORDINATES, Law, Local, State, project};
-use crate::number::{fill, padded};
+use crate::number::{Block, LANES, blocks};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 
@@ -42,7 +42,7 @@ pub struct StepRecord {
     modes: usize,
     stride: usize,
     rule: VelocityRule,
-    displacement: Vec<f64>,
+    displacement: Vec<Block>,
 }
 
 impl StepRecord {
@@ -61,10 +61,10 @@ impl StepRecord {
             });
         }
         let modes = problem.system.modes();
-        let stride = padded(modes);
+        let stride = modes.div_ceil(LANES);
         // A duration that is a whole number of steps up to rounding takes just that many.
         let count = (problem.duration / dt - 1e-9).ceil().max(1.0);
-        let bytes = (count + 3.0) * (stride * 8) as f64;
+        let bytes = (count + 3.0) * (stride * size_of::<Block>()) as f64;
         if bytes > LARGEST_RECORD {
             return Err(Error::TooManySteps {
                 steps: count as usize,
@@ -83,15 +83,18 @@ impl StepRecord {
         })
     }
 
-    /// Keeps the displacements of the next step, padded to whole lanes; the first call gives
+    /// Keeps the displacements of the next step; the first call gives
     /// those one step before the start.
     #[inline(always)]
-    pub(crate) fn push(&mut self, displacement: &[f64]) {
-        self.displacement.extend_from_slice(displacement);
+    pub(crate) fn push(&mut self, displacement: &[Block]) {
+        for block in displacement {
+            self.displacement.push(*block);
+        }
     }
 
     fn row(&self, n: usize) -> &[f64] {
-        &self.displacement[n * self.stride..n * self.stride + self.modes]
+        let blocks = &self.displacement[n * self.stride..(n + 1) * self.stride];
+        &blocks.as_flattened()[..self.modes]
     }
 
     /// Modal displacements at step n.
@@ -171,7 +174,7 @@ fn law_stiffness<L: Law>(law: &L) -> f64 {
 pub(crate) struct LawForces<'a, L> {
     laws: &'a [L],
     /// The rows of all laws, one after the other.
-    pub rows: Vec<Vec<f64>>,
+    pub rows: Vec<Vec<Block>>,
     states: Vec<State>,
     events: Vec<Event>,
 }
@@ -188,7 +191,7 @@ impl<'a, L: Law> LawForces<'a, L> {
         let all = laws.iter().flat_map(|law| law.rows());
         Self {
             laws,
-            rows: all.map(|row| fill(row, 0.0)).collect(),
+            rows: all.map(|row| blocks(row)).collect(),
             states,
             events: Vec::new(),
         }
@@ -220,7 +223,9 @@ impl<'a, L: Law> LawForces<'a, L> {
                 self.states[index] = state;
             }
             let force = law.force(state, &position, &velocity);
-            forces[rows.clone()].copy_from_slice(&force[..rows.len()]);
+            for (to, from) in forces[rows.clone()].iter_mut().zip(force) {
+                *to = from;
+            }
             first = rows.end;
         }
     }
@@ -234,14 +239,20 @@ impl<'a, L: Law> LawForces<'a, L> {
 #[inline(always)]
 fn local(values: &[f64]) -> Local<f64> {
     let mut local = [0.0; COORDINATES];
-    local[..values.len()].copy_from_slice(values);
+    for (to, from) in local.iter_mut().zip(values) {
+        *to = *from;
+    }
     local
 }
 
 /// Products of rows: `sum_i a_i weight_i b_i` for all pairs, row by row.
-pub(crate) fn row_products(rows: &[Vec<f64>], weight: &[f64]) -> Vec<f64> {
-    let product = |a: &[f64], b: &[f64]| -> f64 {
-        (a.iter().zip(b).zip(weight)).map(|((a, b), w)| a * w * b).sum()
+pub(crate) fn row_products(rows: &[Vec<Block>], weight: &[Block]) -> Vec<f64> {
+    let product = |a: &[Block], b: &[Block]| -> f64 {
+        let pairs = a.as_flattened().iter().zip(b.as_flattened());
+        pairs
+            .zip(weight.as_flattened())
+            .map(|((a, b), w)| a * w * b)
+            .sum()
     };
     let all = rows.iter().flat_map(|a| rows.iter().map(move |b| (a, b)));
     all.map(|(a, b)| product(a, b)).collect()

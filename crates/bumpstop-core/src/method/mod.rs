@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::history::History;
 use crate::law::Law;
 use crate::problem::Problem;
+use std::sync::Arc;
 
 /// A method and its options.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +41,7 @@ pub type Observer<'a> = &'a mut dyn FnMut(f64) -> bool;
 /// # Errors
 /// See [`Error`]; the observer's refusal gives [`Error::Interrupted`].
 pub fn simulate<L: Law>(
-    problem: &Problem<L>,
+    problem: &Arc<Problem<L>>,
     method: Method,
     observer: Observer<'_>,
 ) -> Result<History<L>> {

@@ -13,9 +13,10 @@ use super::{Observer, observe};
 use crate::error::Result;
 use crate::history::History;
 use crate::law::Law;
-use crate::number::{Instructions, LANES, Lanes, Number, Vectorised, dispatch, dot, fill};
+use crate::number::{Instructions, LANES, Lanes, Number, Vectorised, blocks, dispatch, dot};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
+use std::sync::Arc;
 
 /// The method's name.
 pub const NAME: &str = "symplectic_euler";
@@ -41,7 +42,7 @@ fn law_damping<L: Law>(law: &L) -> f64 {
 /// # Errors
 /// See [`crate::error::Error`].
 pub fn simulate<L: Law>(
-    problem: &Problem<L>,
+    problem: &Arc<Problem<L>>,
     step: Step,
     observer: Observer<'_>,
 ) -> Result<History<L>> {
@@ -85,29 +86,31 @@ fn march<I: Instructions, L: Law>(
 ) -> Result<()> {
     let dt = record.dt;
     let step = Lanes::<I>::of(dt);
-    let omega2 = fill(problem.system.omega2(), 0.0);
-    let damping = fill(problem.system.damping(), 0.0);
-    let constant = fill(problem.forcing.forces(), 0.0);
-    let mut q = fill(&problem.displacement, 0.0);
-    let mut v = fill(&problem.velocity, 0.0);
-    let mut free = vec![0.0; v.len()];
+    let omega2 = blocks(problem.system.omega2());
+    let damping = blocks(problem.system.damping());
+    let constant = blocks(problem.forcing.forces());
+    let mut q = blocks(&problem.displacement);
+    let mut v = blocks(&problem.velocity);
+    let mut free = v.clone();
     let rows = laws.rows.clone();
-    let coupling = row_products(&rows, &vec![1.0; v.len()]);
+    let coupling = row_products(&rows, &vec![[1.0; LANES]; v.len()]);
     let mut forces = vec![0.0; rows.len()];
     let mut positions: Vec<f64> = rows.iter().map(|row| dot::<I>(row, &q)).collect();
     let mut velocities: Vec<f64> = rows.iter().map(|row| dot::<I>(row, &v)).collect();
-    let before: Vec<f64> = q.iter().zip(&v).map(|(q, v)| q - dt * v).collect();
-    record.push(&before);
+    let both = problem.displacement.iter().zip(&problem.velocity);
+    let before: Vec<f64> = both.map(|(q, v)| q - dt * v).collect();
+    record.push(&blocks(&before));
     record.push(&q);
     for n in 0..=record.steps {
         if n % STEPS_BETWEEN_OBSERVATIONS == 0 {
             observe(observer, n as f64 * dt)?;
         }
         laws.evaluate(n as f64 * dt, &positions, &velocities, &mut forces);
-        for o in (0..v.len()).step_by(LANES) {
-            let (q, v) = (Lanes::<I>::load(&q[o..]), Lanes::load(&v[o..]));
-            let inner = Lanes::load(&omega2[o..]) * q + Lanes::load(&damping[o..]) * v;
-            (v + (Lanes::load(&constant[o..]) - inner) * step).store(&mut free[o..]);
+        let structure = omega2.iter().zip(&damping).zip(&constant);
+        for (((free, q), v), ((w2, c), p)) in free.iter_mut().zip(&q).zip(&v).zip(structure) {
+            let v = Lanes::<I>::of_block(v);
+            let inner = Lanes::of_block(w2) * Lanes::of_block(q) + Lanes::of_block(c) * v;
+            (v + (Lanes::of_block(p) - inner) * step).to_block(free);
         }
         for (r, row) in rows.iter().enumerate() {
             let mut pushed = 0.0;
@@ -117,13 +120,15 @@ fn march<I: Instructions, L: Law>(
             velocities[r] = dot::<I>(row, &free) + dt * pushed;
             positions[r] += dt * velocities[r];
         }
-        for o in (0..v.len()).step_by(LANES) {
-            let mut rate = Lanes::<I>::load(&free[o..]);
-            for (row, force) in rows.iter().zip(&forces) {
-                rate += Lanes::load(&row[o..]) * Lanes::of(dt * force);
+        for (row, force) in rows.iter().zip(&forces) {
+            let impulse = Lanes::<I>::of(dt * force);
+            for (free, row) in free.iter_mut().zip(row) {
+                (Lanes::of_block(free) + Lanes::of_block(row) * impulse).to_block(free);
             }
-            rate.store(&mut v[o..]);
-            (Lanes::load(&q[o..]) + rate * step).store(&mut q[o..]);
+        }
+        std::mem::swap(&mut v, &mut free);
+        for (q, v) in q.iter_mut().zip(&v) {
+            (Lanes::<I>::of_block(q) + Lanes::of_block(v) * step).to_block(q);
         }
         record.push(&q);
     }

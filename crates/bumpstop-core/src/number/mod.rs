@@ -11,7 +11,9 @@ mod lanes;
 
 pub use complex::Complex;
 pub use dual::Dual;
-pub use lanes::{Instructions, LANES, Lanes, Plain, Vectorised, dispatch, dot, fill, padded};
+pub use lanes::{
+    Block, Instructions, LANES, Lanes, Plain, Vectorised, blocks, dispatch, dot, padded,
+};
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

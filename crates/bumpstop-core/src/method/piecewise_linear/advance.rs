@@ -162,19 +162,31 @@ impl Walk {
             self.moduli = vec![0.0; n];
             self.sizes = vec![0.0; n];
             self.bound = vec![0.0; n];
-            for rows in [&mut self.left, &mut self.middle, &mut self.right, &mut self.probe] {
+            for rows in [
+                &mut self.left,
+                &mut self.middle,
+                &mut self.right,
+                &mut self.probe,
+            ] {
                 *rows = Rows::zeros(1, n);
             }
         }
         for o in (0..n).step_by(LANES) {
-            spectrum.lambda.lanes::<I>(0, o).norm().store(&mut self.moduli[o..]);
+            spectrum
+                .lambda
+                .lanes::<I>(0, o)
+                .norm()
+                .store(&mut self.moduli[o..]);
             self.left.put(0, o, Complex::real(Lanes::<I>::of(1.0)));
             Lanes::<I>::of(1.0).store(&mut self.sizes[o..]);
         }
         if from > 0.0 {
             self.anchor::<I>(spectrum, from);
         }
-        let pace = signals.iter().map(|s| s.pace(spectrum)).fold(0.0f64, f64::max);
+        let pace = signals
+            .iter()
+            .map(|s| s.pace(spectrum))
+            .fold(0.0f64, f64::max);
         self.longest = limit - from;
         let mut level = 0;
         while self.width(level) * pace > 2.0 && level < 1000 {
@@ -206,7 +218,11 @@ impl Walk {
         }
         spectrum.exponentials::<I>(width, &mut table.factor);
         for o in (0..n).step_by(LANES) {
-            table.factor.lanes::<I>(0, o).norm().store(&mut table.growth[o..]);
+            table
+                .factor
+                .lanes::<I>(0, o)
+                .norm()
+                .store(&mut table.growth[o..]);
         }
         table.filled = true;
     }
@@ -215,7 +231,10 @@ impl Walk {
     fn anchor<I: Instructions>(&mut self, spectrum: &Spectrum, time: f64) {
         spectrum.exponentials::<I>(time, &mut self.left);
         for o in (0..spectrum.exponents()).step_by(LANES) {
-            self.left.lanes::<I>(0, o).norm().store(&mut self.sizes[o..]);
+            self.left
+                .lanes::<I>(0, o)
+                .norm()
+                .store(&mut self.sizes[o..]);
         }
     }
 
@@ -233,12 +252,15 @@ impl Walk {
         let radius = 0.5 * width;
         for o in (0..spectrum.exponents()).step_by(LANES) {
             let left = self.left.lanes::<I>(0, o);
-            self.middle.put(0, o, left * self.levels[level + 1].factor.lanes(0, o));
-            self.right.put(0, o, left * self.levels[level].factor.lanes(0, o));
+            self.middle
+                .put(0, o, left * self.levels[level + 1].factor.lanes(0, o));
+            self.right
+                .put(0, o, left * self.levels[level].factor.lanes(0, o));
             let growth = Lanes::<I>::load(&self.levels[level].growth[o..]).max(Lanes::<I>::of(1.0));
             (Lanes::<I>::load(&self.sizes[o..]) * growth).store(&mut self.bound[o..]);
         }
-        let smallest = SMALLEST_CELL * (time + width).max(self.width(0).min(1.0 / spectrum.fastest));
+        let smallest =
+            SMALLEST_CELL * (time + width).max(self.width(0).min(1.0 / spectrum.fastest));
         let mut first: Option<Crossing> = None;
         for (watched, signal) in path.signals.iter().enumerate() {
             let from_zero = time == path.from && path.starts[watched] == Start::Zero;
@@ -257,8 +279,14 @@ impl Walk {
                     time: time + radius,
                     exponentials: &self.middle,
                 };
-                let jet =
-                    signal.jet::<I>(path.phases, path.phase, &at, &self.bound, &self.moduli, radius);
+                let jet = signal.jet::<I>(
+                    path.phases,
+                    path.phase,
+                    &at,
+                    &self.bound,
+                    &self.moduli,
+                    radius,
+                );
                 certificate.missed = certificate.missed.max(jet.rounding);
                 match jet.verdict(radius) {
                     Verdict::Clear => None,
@@ -266,7 +294,9 @@ impl Walk {
                     Verdict::Convex(curvature) => {
                         self.valley::<I>(path, watched, time, time + width, curvature, jet.rounding)
                     }
-                    Verdict::Open if width < smallest => self.end::<I>(path, watched, time, time + width),
+                    Verdict::Open if width < smallest => {
+                        self.end::<I>(path, watched, time, time + width)
+                    }
                     Verdict::Open => return Outcome::Halve,
                 }
             };
@@ -281,17 +311,37 @@ impl Walk {
 
     /// The first cell of a guard that starts at zero.
     #[inline(always)]
-    fn depart<I: Instructions>(&mut self, path: &Path<'_>, signal: &Signal, time: f64, width: f64) -> Departure {
+    fn depart<I: Instructions>(
+        &mut self,
+        path: &Path<'_>,
+        signal: &Signal,
+        time: f64,
+        width: f64,
+    ) -> Departure {
         let at = Instant {
             time,
             exponentials: &self.left,
         };
-        let mut jet =
-            signal.jet::<I>(path.phases, path.phase, &at, &self.bound, &self.moduli, width);
+        let mut jet = signal.jet::<I>(
+            path.phases,
+            path.phase,
+            &at,
+            &self.bound,
+            &self.moduli,
+            width,
+        );
         let full = signal.values::<I>(path.phases, path.phase, &at);
         let noise = signal.rate_rounding(path.phases, path.phase, &self.moduli);
-        jet.slope = if full[1].abs() <= noise[0] { 0.0 } else { full[1] };
-        let curvature = if full[2].abs() <= noise[1] { 0.0 } else { full[2] };
+        jet.slope = if full[1].abs() <= noise[0] {
+            0.0
+        } else {
+            full[1]
+        };
+        let curvature = if full[2].abs() <= noise[1] {
+            0.0
+        } else {
+            full[2]
+        };
         if jet.slope < 0.0 || (jet.slope == 0.0 && curvature < 0.0) {
             return Departure::Inward;
         }
@@ -304,7 +354,13 @@ impl Walk {
 
     /// Decides by the sign at the right end.
     #[inline(always)]
-    fn end<I: Instructions>(&mut self, path: &Path<'_>, watched: usize, left: f64, right: f64) -> Option<f64> {
+    fn end<I: Instructions>(
+        &mut self,
+        path: &Path<'_>,
+        watched: usize,
+        left: f64,
+        right: f64,
+    ) -> Option<f64> {
         let at = Instant {
             time: right,
             exponentials: &self.right,
@@ -347,7 +403,11 @@ impl Walk {
                 low = t;
             }
             let newton = t - values[1] / values[2];
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
             if (next - t).abs() <= 4.0 * f64::EPSILON * t || next == t {
                 break;
             }
@@ -393,11 +453,16 @@ impl Walk {
             }
             let newton = value / slope;
             let halley = t - newton / (1.0 - 0.5 * newton * curvature / slope);
-            let next = if halley > low && halley < high { halley } else { 0.5 * (low + high) };
+            let next = if halley > low && halley < high {
+                halley
+            } else {
+                0.5 * (low + high)
+            };
             let step = (next - t).abs();
             t = next;
             // The error after a Halley step goes with the cube of the step.
-            if step < 1e-6 * (right - left) && halley == next || high - low <= 2.0 * f64::EPSILON * t
+            if step < 1e-6 * (right - left) && halley == next
+                || high - low <= 2.0 * f64::EPSILON * t
             {
                 break;
             }

@@ -33,8 +33,12 @@ pub(crate) fn spectrum<L: Law>(
     };
     let diagonal = |values: &[f64], r: usize, c: usize| if r == c { values[modes[r]] } else { 0.0 };
     let coupled = Coupled {
-        stiffness: Mat::from_fn(n, n, |r, c| diagonal(omega2, r, c) + sum(r, c, |a| a.stiffness)),
-        damping: Mat::from_fn(n, n, |r, c| diagonal(damping, r, c) + sum(r, c, |a| a.damping)),
+        stiffness: Mat::from_fn(n, n, |r, c| {
+            diagonal(omega2, r, c) + sum(r, c, |a| a.stiffness)
+        }),
+        damping: Mat::from_fn(n, n, |r, c| {
+            diagonal(damping, r, c) + sum(r, c, |a| a.damping)
+        }),
     };
     let mut spectrum = Spectrum::empty(states);
     spectrum.members = (modes.iter().enumerate())
@@ -91,7 +95,9 @@ impl Coupled {
         });
         let eigen = state.eigen().map_err(|_| Error::Eigenvalues)?;
         let right = eigen.U();
-        let inverse = right.partial_piv_lu().solve(Mat::<c64>::identity(2 * n, 2 * n));
+        let inverse = right
+            .partial_piv_lu()
+            .solve(Mat::<c64>::identity(2 * n, 2 * n));
         let values = eigen.S().column_vector();
         let kept: Vec<usize> = (0..2 * n).filter(|&j| values[j].im >= 0.0).collect();
         let stride = padded(kept.len());

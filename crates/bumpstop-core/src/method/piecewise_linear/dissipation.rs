@@ -113,7 +113,8 @@ impl Dissipation {
             })
             .collect();
         Self {
-            modal: damped.then(|| Form::new::<I>(spectrum, &spectrum.shape, &spectrum.group_damping)),
+            modal: damped
+                .then(|| Form::new::<I>(spectrum, &spectrum.shape, &spectrum.group_damping)),
             laws,
         }
     }

@@ -60,7 +60,8 @@ impl Watch {
                     let value = signal.value::<I>(phases, phase, &instant);
                     value.abs() <= signal.rounding(0.0) || value < 0.0
                 };
-                self.starts.push(if zero { Start::Zero } else { Start::Positive });
+                self.starts
+                    .push(if zero { Start::Zero } else { Start::Positive });
             }
             first_view += law.rows().len();
         }

@@ -54,8 +54,7 @@ impl Jet {
         if self.value.abs() + tilt + bend.abs() + spread <= self.rounding {
             return Verdict::Clear;
         }
-        let slope_spread =
-            self.curvature.abs() * r + 0.5 * self.third * r * r + self.rest[1];
+        let slope_spread = self.curvature.abs() * r + 0.5 * self.third * r * r + self.rest[1];
         if self.slope > slope_spread {
             return Verdict::Clear;
         }

@@ -31,6 +31,8 @@ use advance::{Certificate, Walk};
 use event::Watch;
 use phase::{Phases, Workspace};
 use spectrum::{Secular, Spectrum};
+use std::cell::Cell;
+use std::sync::Arc;
 
 /// The method's name.
 pub const NAME: &str = "exact";
@@ -45,12 +47,13 @@ const PHASES_BETWEEN_OBSERVATIONS: usize = 64;
 ///
 /// # Errors
 /// See [`Error`].
-pub fn simulate<L: Law>(problem: &Problem<L>, observer: Observer<'_>) -> Result<History<L>> {
+pub fn simulate<L: Law>(problem: &Arc<Problem<L>>, observer: Observer<'_>) -> Result<History<L>> {
     let mut run = Run::new(problem);
     dispatch(Advance {
         run: &mut run,
         observer,
     })?;
+    SCRATCH.set(Some(run.scratch));
     let record = PhaseRecord::new(run.phases, problem.duration, run.certificate);
     Ok(History::of_phases(problem, NAME, record, run.events))
 }
@@ -68,15 +71,27 @@ impl<L: Law> Vectorised for Advance<'_, '_, '_, L> {
     }
 }
 
+/// Memory that a run needs only while it goes on.
+#[derive(Debug, Default)]
+struct Scratch {
+    walk: Walk,
+    watch: Watch,
+    work: Workspace,
+}
+
+thread_local! {
+    /// Each thread keeps its scratch memory for its next run: asking for it anew would take as
+    /// long as a short run itself.
+    static SCRATCH: Cell<Option<Box<Scratch>>> = const { Cell::new(None) };
+}
+
 /// A run in progress.
 struct Run<'a, L> {
     problem: &'a Problem<L>,
     phases: Phases,
     events: Vec<Event>,
     certificate: Certificate,
-    walk: Walk,
-    watch: Watch,
-    work: Workspace,
+    scratch: Box<Scratch>,
 }
 
 impl<'a, L: Law> Run<'a, L> {
@@ -86,9 +101,7 @@ impl<'a, L: Law> Run<'a, L> {
             phases: Phases::default(),
             events: Vec::new(),
             certificate: Certificate::default(),
-            walk: Walk::default(),
-            watch: Watch::default(),
-            work: Workspace::default(),
+            scratch: SCRATCH.take().unwrap_or_default(),
         }
     }
 
@@ -106,12 +119,14 @@ impl<'a, L: Law> Run<'a, L> {
             }
             self.begin::<I>(time, &states, &q, &v)?;
             let phase = self.phases.list[self.phases.list.len() - 1];
-            self.watch.set::<I, L>(problem, &self.phases, phase, fired);
-            let crossing = self.walk.first_zero::<I>(
+            self.scratch
+                .watch
+                .set::<I, L>(problem, &self.phases, phase, fired);
+            let crossing = self.scratch.walk.first_zero::<I>(
                 &self.phases,
                 phase,
-                self.watch.active(),
-                &self.watch.starts,
+                self.scratch.watch.active(),
+                &self.scratch.watch.starts,
                 0.0,
                 problem.duration - time,
                 &mut self.certificate,
@@ -119,15 +134,24 @@ impl<'a, L: Law> Run<'a, L> {
             let Some(crossing) = crossing else {
                 return Ok(());
             };
-            at_once = if time + crossing.time > time { 0 } else { at_once + 1 };
+            at_once = if time + crossing.time > time {
+                0
+            } else {
+                at_once + 1
+            };
             if at_once > MOST_SWITCHES_AT_ONCE {
                 return Err(Error::EndlessSwitching { time });
             }
             self.phases
-                .motion::<I>(phase, crossing.time, &mut self.work, &mut q, &mut v);
+                .motion::<I>(phase, crossing.time, &mut self.scratch.work, &mut q, &mut v);
             time += crossing.time;
-            let (event, guard) =
-                event::event_of(problem, &states, &self.watch, crossing.watched, time);
+            let (event, guard) = event::event_of(
+                problem,
+                &states,
+                &self.scratch.watch,
+                crossing.watched,
+                time,
+            );
             states[event.law] = event.after;
             fired = Some((event.law, guard));
             self.events.push(event);
@@ -137,14 +161,23 @@ impl<'a, L: Law> Run<'a, L> {
     /// Starts a phase; a spectrum of the secular equation that fails the phase's check is
     /// replaced by that of the dense problem.
     #[inline(always)]
-    fn begin<I: Instructions>(&mut self, time: f64, states: &[State], q: &[f64], v: &[f64]) -> Result<()> {
+    fn begin<I: Instructions>(
+        &mut self,
+        time: f64,
+        states: &[State],
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<()> {
         let spectrum = self.spectrum::<I>(states)?;
-        let begun = self.phases.begin::<I>(time, spectrum, q, v, &mut self.work);
+        let begun = self
+            .phases
+            .begin::<I>(time, spectrum, q, v, &mut self.scratch.work);
         match begun {
             Err(Error::Defective { .. }) if self.phases.spectra[spectrum].is_secular => {
                 let dense = Spectrum::new::<I, L>(self.problem, states, Secular::Skip)?;
                 let replacement = self.phases.add_spectrum(dense);
-                self.phases.begin::<I>(time, replacement, q, v, &mut self.work)
+                self.phases
+                    .begin::<I>(time, replacement, q, v, &mut self.scratch.work)
             }
             begun => begun,
         }

@@ -92,11 +92,16 @@ impl Phases {
             };
             self.kept.extend([x0, v0]);
             let amplitudes = single.motion.amplitudes(x0, v0);
-            for (i, a) in amplitudes.iter().enumerate().take(single.motion.exponents().1) {
+            for (i, a) in amplitudes
+                .iter()
+                .enumerate()
+                .take(single.motion.exponents().1)
+            {
                 work.z.set(0, single.at + i, *a);
             }
         }
-        check_amplitudes::<I>(which, start, work).inspect_err(|_| self.kept.truncate(phase.kept))?;
+        check_amplitudes::<I>(which, start, work)
+            .inspect_err(|_| self.kept.truncate(phase.kept))?;
         self.amplitude_re.extend_from_slice(&work.z.re);
         self.amplitude_im.extend_from_slice(&work.z.im);
         self.list.push(phase);
@@ -113,10 +118,7 @@ impl Phases {
     #[inline(always)]
     pub(crate) fn amplitudes(&self, phase: Phase) -> (&[f64], &[f64]) {
         let range = phase.amplitudes..phase.amplitudes + self.spectra[phase.spectrum].exponents();
-        (
-            &self.amplitude_re[range.clone()],
-            &self.amplitude_im[range],
-        )
+        (&self.amplitude_re[range.clone()], &self.amplitude_im[range])
     }
 
     /// Initial position and velocity of a single motion.
@@ -217,7 +219,11 @@ fn subtract(spectrum: &Spectrum, modal: &[f64], combined: &[f64], own: &mut Vec<
 
 /// The proof that the coupled amplitudes are complete: they must give the state back.
 #[inline(always)]
-fn check_amplitudes<I: Instructions>(spectrum: &Spectrum, time: f64, work: &mut Workspace) -> Result<()> {
+fn check_amplitudes<I: Instructions>(
+    spectrum: &Spectrum,
+    time: f64,
+    work: &mut Workspace,
+) -> Result<()> {
     for o in (0..spectrum.coupled_stride).step_by(LANES) {
         let rate = work.z.lanes::<I>(0, o) * spectrum.lambda.lanes(0, o);
         work.rate.put(0, o, rate);
@@ -233,7 +239,9 @@ fn check_amplitudes<I: Instructions>(spectrum: &Spectrum, time: f64, work: &mut 
             return Err(Error::Overflow { time });
         }
         defect = defect.max(off);
-        size = size.max(work.position[g].abs()).max(spectrum.at_rest[g].abs());
+        size = size
+            .max(work.position[g].abs())
+            .max(spectrum.at_rest[g].abs());
         defect_rate = defect_rate.max(off_rate);
         size_rate = size_rate.max(work.velocity[g].abs());
     }

@@ -121,7 +121,14 @@ impl PhaseRecord {
                 let form = &forms[before.spectrum];
                 dissipated = form.until::<I>(&self.phases, before, length, &mut work);
                 motion = self.motion_in::<I, L>(problem, before, length, &mut work);
-                add_switch_losses(problem, &self.phases, before, *phase, &motion, &mut dissipated);
+                add_switch_losses(
+                    problem,
+                    &self.phases,
+                    before,
+                    *phase,
+                    &motion,
+                    &mut dissipated,
+                );
             }
             ledgers.push(next_ledger(
                 problem,
@@ -137,7 +144,13 @@ impl PhaseRecord {
             dissipated = forms[last.spectrum].until::<I>(&self.phases, last, length, &mut work);
             motion = self.motion_in::<I, L>(problem, last, length, &mut work);
             let states = self.phases.states(last);
-            ledgers.push(next_ledger(problem, states, &motion, ledgers.last(), &dissipated));
+            ledgers.push(next_ledger(
+                problem,
+                states,
+                &motion,
+                ledgers.last(),
+                &dissipated,
+            ));
         }
         Accounts { forms, ledgers }
     }
@@ -219,7 +232,9 @@ impl Vectorised for Projection<'_> {
             if present != Some(number) {
                 let view = [View::new::<I>(spectrum, self.row)];
                 signal.set::<I>(phases, phase, &view, &COORDINATE, self.record.duration);
-                exponentials = Rows::zeros(1, spectrum.exponents());
+                if exponentials.stride != spectrum.exponents() {
+                    exponentials = Rows::zeros(1, spectrum.exponents());
+                }
                 present = Some(number);
             }
             let time = time - phase.start;
@@ -449,7 +464,13 @@ impl<'a, L: Law> ContactReader<'a, L> {
     }
 
     #[inline(always)]
-    fn add_peaks<I: Instructions>(&mut self, phase: Phase, length: f64, force: &Signal, impact: &mut Impact) {
+    fn add_peaks<I: Instructions>(
+        &mut self,
+        phase: Phase,
+        length: f64,
+        force: &Signal,
+        impact: &mut Impact,
+    ) {
         let mut instants = vec![0.0, length];
         instants.extend(self.turning_points::<I>(phase, length, force));
         for t in instants {
@@ -460,11 +481,20 @@ impl<'a, L: Law> ContactReader<'a, L> {
 
     /// Between turning points of the distance the work has one sign.
     #[inline(always)]
-    fn add_work<I: Instructions>(&mut self, phase: Phase, length: f64, distance: &Signal, impact: &mut Impact) {
+    fn add_work<I: Instructions>(
+        &mut self,
+        phase: Phase,
+        length: f64,
+        distance: &Signal,
+        impact: &mut Impact,
+    ) {
         let mut instants = vec![0.0];
         instants.extend(self.turning_points::<I>(phase, length, distance));
         instants.push(length);
-        let given: Vec<f64> = instants.iter().map(|t| self.taken::<I>(phase, *t)).collect();
+        let given: Vec<f64> = instants
+            .iter()
+            .map(|t| self.taken::<I>(phase, *t))
+            .collect();
         for pair in given.windows(2) {
             impact.add_work(pair[0] - pair[1]);
         }
@@ -483,13 +513,22 @@ impl<'a, L: Law> ContactReader<'a, L> {
 
     /// All zeros of a signal's rate inside a phase, in order.
     #[inline(always)]
-    fn turning_points<I: Instructions>(&mut self, phase: Phase, length: f64, signal: &Signal) -> Vec<f64> {
+    fn turning_points<I: Instructions>(
+        &mut self,
+        phase: Phase,
+        length: f64,
+        signal: &Signal,
+    ) -> Vec<f64> {
         let phases = &self.record.phases;
         let mut rate = signal.derivative(phases, phase);
         let mut found = Vec::new();
         let mut from = 0.0;
         let mut certificate = Certificate::default();
-        let mut start = if rate.orient::<I>(phases, phase) { Start::Positive } else { Start::Zero };
+        let mut start = if rate.orient::<I>(phases, phase) {
+            Start::Positive
+        } else {
+            Start::Zero
+        };
         let limit = MOST_TURNING_POINTS;
         while found.len() < limit {
             let rates = std::slice::from_ref(&rate);

@@ -83,7 +83,11 @@ impl Coupling {
         if (im.iter().take(self.omega2.len() - offset)).any(|im| *im <= 0.0) {
             return None;
         }
-        let keep = |x| bracket.live.select_less(Lanes::<I>::of(0.0), x, Lanes::<I>::of(0.0));
+        let keep = |x| {
+            bracket
+                .live
+                .select_less(Lanes::<I>::of(0.0), x, Lanes::<I>::of(0.0))
+        };
         keep(lambda.value.re).store(&mut roots.lambda_re[offset..]);
         keep(lambda.value.im).store(&mut roots.lambda_im[offset..]);
         for i in 0..self.omega2.len() {
@@ -135,10 +139,13 @@ impl Coupling {
                 above_slope += is_above * slope;
             }
             let (to_low, to_high) = (low - root, high - root);
-            let constant =
-                Lanes::<I>::of(1.0) + (below - to_low * below_slope) + (above - to_high * above_slope);
-            let (weight_low, weight_high) =
-                (to_low * to_low * below_slope, to_high * to_high * above_slope);
+            let constant = Lanes::<I>::of(1.0)
+                + (below - to_low * below_slope)
+                + (above - to_high * above_slope);
+            let (weight_low, weight_high) = (
+                to_low * to_low * below_slope,
+                to_high * to_high * above_slope,
+            );
             root = middle_way(constant, weight_low, weight_high, low, high, root);
         }
         (
@@ -171,7 +178,10 @@ impl Coupling {
         let mut eigenvalue = Eigenvalue::new(origin, pole);
         let careful = slope.numbers().iter().all(|s| *s > 0.0);
         let delta = if careful {
-            first * (guess - pole.conj()).conj().scale(Lanes::<I>::of(1.0) / slope)
+            first
+                * (guess - pole.conj())
+                    .conj()
+                    .scale(Lanes::<I>::of(1.0) / slope)
         } else {
             guess - pole
         };
@@ -244,7 +254,13 @@ impl<I: Instructions> Bracket<I> {
         let (mut lower, mut upper) = ([0.0; LANES], [0.0; LANES]);
         let (mut phi2_lower, mut phi2_upper) = ([0.0; LANES], [0.0; LANES]);
         let at = |i: usize| if i < n { coupling.omega2[i] } else { beyond };
-        let phi2 = |i: usize| if i < n { coupling.phi[i] * coupling.phi[i] } else { 0.0 };
+        let phi2 = |i: usize| {
+            if i < n {
+                coupling.phi[i] * coupling.phi[i]
+            } else {
+                0.0
+            }
+        };
         for lane in 0..LANES {
             let index = (first + lane).min(n - 1);
             places[lane] = index as f64 + 0.5;
@@ -383,7 +399,8 @@ fn middle_way<I: Instructions>(
     let (da, db) = (a - present, b - present);
     let linear = constant * (da + db) + low + high;
     let last = constant * da * db + low * db + high * da;
-    let discriminant = (linear * linear - Lanes::<I>::of(4.0) * constant * last).max(Lanes::<I>::of(0.0));
+    let discriminant =
+        (linear * linear - Lanes::<I>::of(4.0) * constant * last).max(Lanes::<I>::of(0.0));
     let root = discriminant.sqrt();
     let zero = Lanes::<I>::of(0.0);
     let two = Lanes::<I>::of(2.0);

@@ -144,7 +144,11 @@ impl Signal {
     pub(crate) fn derivative(&self, phases: &Phases, phase: Phase) -> Self {
         let spectrum = &phases.spectra[phase.spectrum];
         let mut rate = self.clone();
-        rate.terms = [self.terms[1].clone(), self.terms[2].clone(), self.terms[2].clone()];
+        rate.terms = [
+            self.terms[1].clone(),
+            self.terms[2].clone(),
+            self.terms[2].clone(),
+        ];
         rate.total = 0.0;
         rate.total_rate = 0.0;
         for j in 0..self.size.len() {
@@ -239,8 +243,10 @@ impl Signal {
             let (x0, v0) = phases.kept(phase, special.single);
             let [x, v, a] = motion.special(x0, v0, 0.0);
             let sizes = [x.abs(), v.abs(), a.abs(), motion.damping * a.abs()];
-            bounds[0] += special.of_position.abs() * sizes[1] + special.of_velocity.abs() * sizes[2];
-            bounds[1] += special.of_position.abs() * sizes[2] + special.of_velocity.abs() * sizes[3];
+            bounds[0] +=
+                special.of_position.abs() * sizes[1] + special.of_velocity.abs() * sizes[2];
+            bounds[1] +=
+                special.of_position.abs() * sizes[2] + special.of_velocity.abs() * sizes[3];
         }
         let p = self.polynomial;
         [
@@ -260,13 +266,22 @@ impl Signal {
         let special: f64 = (self.specials.iter())
             .map(|s| spectrum.singles[s.single].motion.omega2.abs())
             .fold(0.0, f64::max);
-        let own = if self.total > 0.0 { bending / self.total } else { 0.0 };
+        let own = if self.total > 0.0 {
+            bending / self.total
+        } else {
+            0.0
+        };
         own.max(special).sqrt()
     }
 
     /// Value and first two derivatives, all terms summed.
     #[inline(always)]
-    pub(crate) fn values<I: Instructions>(&self, phases: &Phases, phase: Phase, at: &Instant<'_>) -> [f64; 3] {
+    pub(crate) fn values<I: Instructions>(
+        &self,
+        phases: &Phases,
+        phase: Phase,
+        at: &Instant<'_>,
+    ) -> [f64; 3] {
         let mut sums = [Lanes::<I>::of(0.0); 3];
         for o in (0..self.size.len()).step_by(LANES) {
             let e = at.exponentials.lanes::<I>(0, o);
@@ -281,10 +296,17 @@ impl Signal {
 
     /// The value alone.
     #[inline(always)]
-    pub(crate) fn value<I: Instructions>(&self, phases: &Phases, phase: Phase, at: &Instant<'_>) -> f64 {
+    pub(crate) fn value<I: Instructions>(
+        &self,
+        phases: &Phases,
+        phase: Phase,
+        at: &Instant<'_>,
+    ) -> f64 {
         let mut sum = Lanes::<I>::of(0.0);
         for o in (0..self.size.len()).step_by(LANES) {
-            sum += self.terms[0].lanes(0, o).real_product(at.exponentials.lanes(0, o));
+            sum += self.terms[0]
+                .lanes(0, o)
+                .real_product(at.exponentials.lanes(0, o));
         }
         let mut values = [sum.total(), 0.0, 0.0];
         self.add_slow(phases, phase, at.time, &mut values);
@@ -367,7 +389,9 @@ fn weights<I: Instructions>(
         let (position, velocity) = (guard.position[coordinate], guard.velocity[coordinate]);
         if position != 0.0 || velocity != 0.0 {
             let view = views[coordinate].exponents.lanes(0, offset);
-            let factor = lambda.scale(Lanes::<I>::of(velocity)).plus(Lanes::<I>::of(position));
+            let factor = lambda
+                .scale(Lanes::<I>::of(velocity))
+                .plus(Lanes::<I>::of(position));
             total += view * factor;
         }
     }

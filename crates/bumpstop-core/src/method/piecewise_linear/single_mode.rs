@@ -145,7 +145,11 @@ impl SingleMode {
             let size = x0.abs() + speed * duration;
             let second = p.abs() + c * speed + w2.abs() * size;
             let third = c * second + w2.abs() * speed;
-            return if order == 3 { third } else { c * third + w2.abs() * second };
+            return if order == 3 {
+                third
+            } else {
+                c * third + w2.abs() * second
+            };
         }
         // v^2 + w2 x^2 never grows (x from rest), and each derivative is some row . (v, x).
         let x = x0 - p / w2;
@@ -217,10 +221,12 @@ impl SingleMode {
                 let z = (v0 - drift) * Number::exp(-c * t);
                 drift * drift * t - (2.0 * drift * z + 0.5 * z * z) / c
             }),
-            Regime::NearCritical => self.lyapunov(x0, v0) - {
-                let end = self.special(x0, v0, t);
-                self.lyapunov(end[0], end[1])
-            },
+            Regime::NearCritical => {
+                self.lyapunov(x0, v0) - {
+                    let end = self.special(x0, v0, t);
+                    self.lyapunov(end[0], end[1])
+                }
+            }
             Regime::Slow => {
                 let speed = |t: f64| self.special(x0, v0, t)[1];
                 c * gauss_legendre(t, |t| speed(t) * speed(t))

@@ -34,7 +34,10 @@ impl Rows {
     #[inline(always)]
     pub(crate) fn lanes<I: Instructions>(&self, row: usize, offset: usize) -> Complex<Lanes<I>> {
         let at = row * self.stride + offset;
-        Complex::new(Lanes::<I>::load(&self.re[at..]), Lanes::<I>::load(&self.im[at..]))
+        Complex::new(
+            Lanes::<I>::load(&self.re[at..]),
+            Lanes::<I>::load(&self.im[at..]),
+        )
     }
 
     /// Writes eight entries of a row.
@@ -152,9 +155,12 @@ impl Spectrum {
         spectrum.fastest = (spectrum.lambda.re.iter().zip(&spectrum.lambda.im))
             .fold(0.0f64, |m, (re, im)| m.max(re * re + im * im))
             .sqrt();
-        spectrum.views = (problem.laws.iter().flat_map(Law::rows))
-            .map(|row| View::new::<I>(&spectrum, row))
-            .collect();
+        for law in &problem.laws {
+            for row in law.rows() {
+                let view = View::new::<I>(&spectrum, row);
+                spectrum.views.push(view);
+            }
+        }
         Ok(spectrum)
     }
 
@@ -232,7 +238,10 @@ impl Spectrum {
         };
         self.left_position = Rows::zeros(n, stride);
         self.left_velocity = Rows::zeros(n, stride);
-        let (k, c) = (Lanes::<I>::of(coupling.stiffness), Lanes::<I>::of(coupling.stop_damping));
+        let (k, c) = (
+            Lanes::<I>::of(coupling.stiffness),
+            Lanes::<I>::of(coupling.stop_damping),
+        );
         let two = Lanes::<I>::of(2.0);
         for o in (0..stride).step_by(LANES) {
             let lambda = self.lambda.lanes(0, o);
@@ -241,7 +250,10 @@ impl Spectrum {
             let contact = safe_recip(kappa);
             let mut norm = (contact * contact).scale(c);
             for i in 0..n {
-                let psi = self.shape.lanes(i, o).scale(Lanes::<I>::of(coupling.phi[i]));
+                let psi = self
+                    .shape
+                    .lanes(i, o)
+                    .scale(Lanes::<I>::of(coupling.phi[i]));
                 self.shape.put(i, o, psi);
                 let rate = lambda.scale(two).plus(Lanes::<I>::of(coupling.damping[i]));
                 norm += psi * psi * rate;
@@ -361,13 +373,21 @@ impl Spectrum {
 
     /// Amplitudes of the coupled exponents from the groups' state.
     #[inline(always)]
-    pub(crate) fn amplitudes<I: Instructions>(&self, position: &[f64], velocity: &[f64], to: &mut Rows) {
+    pub(crate) fn amplitudes<I: Instructions>(
+        &self,
+        position: &[f64],
+        velocity: &[f64],
+        to: &mut Rows,
+    ) {
         for o in (0..self.coupled_stride).step_by(LANES) {
             let mut total = Complex::<Lanes<I>>::zero();
             for g in 0..self.groups {
                 let y = Lanes::<I>::of(position[g] - self.at_rest[g]);
                 total += self.left_position.lanes(g, o).scale(y);
-                total += self.left_velocity.lanes(g, o).scale(Lanes::<I>::of(velocity[g]));
+                total += self
+                    .left_velocity
+                    .lanes(g, o)
+                    .scale(Lanes::<I>::of(velocity[g]));
             }
             to.put(0, o, total);
         }
@@ -419,7 +439,12 @@ impl View {
                 exponents.set(0, single.at + i, Complex::real(weight));
             }
         }
-        let rest = spectrum.at_rest.iter().zip(&combined).map(|(y, w)| y * w).sum();
+        let rest = spectrum
+            .at_rest
+            .iter()
+            .zip(&combined)
+            .map(|(y, w)| y * w)
+            .sum();
         Self {
             exponents,
             rest,

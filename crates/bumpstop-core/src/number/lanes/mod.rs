@@ -27,6 +27,18 @@ impl<I: Instructions> Lanes<I> {
         Self(I::load(&numbers))
     }
 
+    /// The numbers of a block.
+    #[inline(always)]
+    pub fn of_block(block: &Block) -> Self {
+        Self(I::load(block))
+    }
+
+    /// Writes a block.
+    #[inline(always)]
+    pub fn to_block(self, block: &mut Block) {
+        I::store(self.0, block);
+    }
+
     /// Eight consecutive numbers.
     ///
     /// # Panics
@@ -71,28 +83,31 @@ fn first_eight_mut(to: &mut [f64]) -> &mut [f64; LANES] {
     to.first_chunk_mut().expect("whole lanes")
 }
 
+/// Eight consecutive numbers of an array: loops over blocks need no checks of bounds.
+pub type Block = [f64; LANES];
+
+/// Copies numbers into blocks, the last one filled with zeros.
+pub fn blocks(from: &[f64]) -> Vec<Block> {
+    let mut blocks = vec![[0.0; LANES]; from.len().div_ceil(LANES)];
+    blocks.as_flattened_mut()[..from.len()].copy_from_slice(from);
+    blocks
+}
+
 /// `length` rounded up to whole lanes.
 #[inline(always)]
 pub const fn padded(length: usize) -> usize {
     length.div_ceil(LANES) * LANES
 }
 
-/// Copies `from` into a fresh vector of whole lanes, the rest filled with `rest`.
-pub fn fill(from: &[f64], rest: f64) -> Vec<f64> {
-    let mut lanes = vec![rest; padded(from.len())];
-    lanes[..from.len()].copy_from_slice(from);
-    lanes
-}
-
-/// Scalar product of two rows of whole lanes, in one fixed order.
+/// Scalar product of two rows of blocks, in one fixed order.
 ///
 /// Like all loops over lanes it has no closure in it: closures are not always inlined, and only
 /// inlined code is compiled for the chosen instructions.
 #[inline(always)]
-pub fn dot<I: Instructions>(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot<I: Instructions>(a: &[Block], b: &[Block]) -> f64 {
     let mut total = Lanes::<I>::of(0.0);
-    for o in (0..a.len()).step_by(LANES) {
-        total += Lanes::load(&a[o..]) * Lanes::load(&b[o..]);
+    for (a, b) in a.iter().zip(b) {
+        total += Lanes::of_block(a) * Lanes::of_block(b);
     }
     total.total()
 }
@@ -205,7 +220,10 @@ mod tests {
                 a.select_less(b, sin, cos),
                 Lanes::of((a * b).total()),
             ];
-            results.iter().flat_map(|r| r.numbers().map(f64::to_bits)).collect()
+            results
+                .iter()
+                .flat_map(|r| r.numbers().map(f64::to_bits))
+                .collect()
         }
     }
 

@@ -127,7 +127,12 @@ impl Instructions for Avx2 {
     fn load(from: &[f64; LANES]) -> Self::Vector {
         let (low, high) = from.split_at(LANES / 2);
         // SAFETY: as above; each half of the array holds the four numbers that are read.
-        unsafe { [_mm256_loadu_pd(low.as_ptr()), _mm256_loadu_pd(high.as_ptr())] }
+        unsafe {
+            [
+                _mm256_loadu_pd(low.as_ptr()),
+                _mm256_loadu_pd(high.as_ptr()),
+            ]
+        }
     }
     #[inline(always)]
     fn store(x: Self::Vector, to: &mut [f64; LANES]) {
