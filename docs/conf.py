@@ -2,8 +2,11 @@
 
 import logging
 import os
+import re
 import sys
 from pathlib import Path
+
+from sphinx.application import Sphinx
 
 import bumpstop
 
@@ -66,7 +69,27 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 autodoc_type_aliases = {
-    name: name for name in ("ArrayLike", "Dof", "FloatArray", "IndexArray", "Table", "Vector")
+    name: name for name in ("ArrayLike", "FloatArray", "IndexArray", "Table", "Vector")
 }
+ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
 python_maximum_signature_line_length = 88
 python_use_unqualified_type_names = True
+
+
+def setup(app: Sphinx) -> None:
+    """Let signatures show the names of type aliases also where they are nested."""
+    app.connect("autodoc-process-signature", show_alias_names)
+
+
+def show_alias_names(
+    _app: Sphinx,
+    _what: str,
+    _name: str,
+    _object: object,
+    _options: object,
+    signature: str | None,
+    returns: str | None,
+) -> tuple[str | None, str | None]:
+    """Take away the wrapper that autodoc leaves around an alias within another type."""
+    plain = [text and ALIAS.sub(r"\1", text) for text in (signature, returns)]
+    return plain[0], plain[1]
