@@ -18,8 +18,7 @@ class Core:
     def solve(self, problem: StopProblem, times: Array) -> Run:
         """Solve and read the outputs, and the ledger with its residual if asked for."""
         history = problem.solve(self.method, self.dt)
-        tip = history.motion(times, 0) @ problem.row
+        tip = history.project(problem.row, times, 0)
         if self.ledger:
-            history.energy(times)
             history.energy_residual()
         return Run(history.seconds, tip)

@@ -40,12 +40,17 @@ class History:
     def steps(self) -> int:
         """Certified cells of the exact method, or time steps."""
     @property
+    def missed_penetration(self) -> float | None:
+        """Deepest penetration that rounding could have hidden from the certificate, in m."""
+    @property
     def event_count(self) -> int: ...
     @property
     def seconds(self) -> float:
         """Core time spent so far on this run: integration and everything read since."""
     def motion(self, times: Array, derivative: int) -> Array:
         """Modal displacement (0), velocity (1) or acceleration (2), shape (time, mode)."""
+    def project(self, row: Array, times: Array, derivative: int) -> Array:
+        """One linear combination of the modal coordinates, (time,), as cheap as it can be."""
     def law_motion(self, law: int, times: Array) -> tuple[Array, Array, Array]:
         """Distance in m, its rate in m/s, and force in N of one law, each (time,)."""
     def energy(self, times: Array) -> dict[str, Array]:

@@ -80,12 +80,6 @@ fn main() {
     };
 
     let ledger = |h: &History<Stop>| read_tip(h) + h.energy_residual();
-    if std::env::var("PROF").is_ok() {
-        for _ in 0..3 {
-            time(&problems, Method::CentralDifference(step), nothing);
-        }
-        return;
-    }
     let rows = [
         (
             "exact, integration alone",

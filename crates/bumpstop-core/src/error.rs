@@ -82,6 +82,11 @@ pub enum Error {
         /// Instant, in s.
         time: f64,
     },
+    /// Rigid-body modes of different damping are driven against one law.
+    #[error(
+        "several rigid-body modes of different damping push on one law under a constant force: their steady drift is not supported; give them the same damping"
+    )]
+    NoRest,
     /// No spectrum of a phase passed its check.
     #[error(
         "the vibration modes with the laws' present states are too close to defective at t = {time:e} s to be separated (relative error {defect:.1e})"

@@ -16,6 +16,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 type Column<'py> = Bound<'py, PyArray1<f64>>;
+type Term = fn(&Impact) -> f64;
 
 /// What a run leaves behind; it can be sampled anywhere in [0, duration].
 #[pyclass(frozen, module = "bumpstop._core")]
@@ -58,6 +59,15 @@ impl History {
     }
 }
 
+fn derivative_numbered(number: usize) -> PyResult<Derivative> {
+    match number {
+        0 => Ok(Derivative::Displacement),
+        1 => Ok(Derivative::Velocity),
+        2 => Ok(Derivative::Acceleration),
+        _ => Err(PyValueError::new_err("derivative must be 0, 1 or 2")),
+    }
+}
+
 #[pymethods]
 impl History {
     #[getter]
@@ -96,12 +106,7 @@ impl History {
         times: PyReadonlyArray1<f64>,
         derivative: usize,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let derivative = match derivative {
-            0 => Derivative::Displacement,
-            1 => Derivative::Velocity,
-            2 => Derivative::Acceleration,
-            _ => return Err(PyValueError::new_err("derivative must be 0, 1 or 2")),
-        };
+        let derivative = derivative_numbered(derivative)?;
         let times = values(&times);
         let rows = self
             .read(py, |h| h.motion(&times, derivative))
@@ -111,6 +116,19 @@ impl History {
         Ok(array
             .map_err(|e| PyValueError::new_err(e.to_string()))?
             .into_pyarray(py))
+    }
+
+    fn project<'py>(
+        &self,
+        py: Python<'py>,
+        row: PyReadonlyArray1<f64>,
+        times: PyReadonlyArray1<f64>,
+        derivative: usize,
+    ) -> PyResult<Column<'py>> {
+        let derivative = derivative_numbered(derivative)?;
+        let (row, times) = (values(&row), values(&times));
+        let sampled = self.read(py, |h| h.project(&row, &times, derivative));
+        Ok(sampled.map_err(core_error)?.into_pyarray(py))
     }
 
     fn law_motion<'py>(
@@ -183,7 +201,7 @@ impl History {
         self.check_law(law)?;
         let impacts = self.read(py, |h| h.impacts(law));
         let dict = PyDict::new(py);
-        let columns: [(&str, fn(&Impact) -> f64); 9] = [
+        let columns: [(&str, Term); 9] = [
             ("start", |i| i.start),
             ("end", |i| i.end),
             ("closing_speed", |i| i.closing_speed),

@@ -5,6 +5,9 @@ use bumpstop_core::{law, modes, system};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
+type Vector<'py> = Bound<'py, PyArray1<f64>>;
+type Matrix<'py> = Bound<'py, PyArray2<f64>>;
+
 /// `q'' + C q' + diag(omega2) q = f`, unit modal mass.
 #[pyclass(frozen, module = "bumpstop._core")]
 pub struct System(pub system::ModalSystem);
@@ -39,7 +42,7 @@ pub fn symmetric_modes<'py>(
     stiffness: PyReadonlyArray2<f64>,
     mass: PyReadonlyArray2<f64>,
     count: usize,
-) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+) -> PyResult<(Vector<'py>, Matrix<'py>)> {
     let matrix = |array: &PyReadonlyArray2<f64>| {
         let view = array.as_array();
         modes::Matrix::from_fn(view.nrows(), view.ncols(), |r, c| view[(r, c)])

@@ -68,13 +68,30 @@ pub(crate) struct Walk {
     probe: Rows,
 }
 
-/// What all steps of a walk share.
-struct Path<'a> {
-    phases: &'a Phases,
-    phase: Phase,
-    signals: &'a [Signal],
-    starts: &'a [Start],
-    from: f64,
+/// What is walked along.
+#[derive(Clone, Copy)]
+pub(crate) struct Path<'a> {
+    pub phases: &'a Phases,
+    pub phase: Phase,
+    /// The guards, and how each starts.
+    pub signals: &'a [Signal],
+    pub starts: &'a [Start],
+    /// Where the walk begins and ends, in s since the start of the phase.
+    pub from: f64,
+    pub limit: f64,
+}
+
+impl Path<'_> {
+    #[inline(always)]
+    fn spectrum(&self) -> &Spectrum {
+        &self.phases.spectra[self.phase.spectrum]
+    }
+
+    /// Whether a guard leaves zero at this time.
+    #[inline(always)]
+    fn departs(&self, watched: usize, time: f64) -> bool {
+        time == self.from && self.starts[watched] == Start::Zero
+    }
 }
 
 /// What a cell came to.
@@ -85,34 +102,22 @@ enum Outcome {
 }
 
 impl Walk {
-    /// The first zero of any signal between `from` and `limit`, both measured from the start of
-    /// the phase, if there is one.
+    /// The first zero of any signal on the path, if there is one.
     #[inline(always)]
     pub(crate) fn first_zero<I: Instructions>(
         &mut self,
-        phases: &Phases,
-        phase: Phase,
-        signals: &[Signal],
-        starts: &[Start],
-        from: f64,
-        limit: f64,
+        path: Path<'_>,
         certificate: &mut Certificate,
     ) -> Option<Crossing> {
-        let path = Path {
-            phases,
-            phase,
-            signals,
-            starts,
-            from,
-        };
-        let spectrum = &phases.spectra[phase.spectrum];
-        let mut level = self.prepare::<I>(spectrum, signals, from, limit);
-        let mut time = from;
+        let spectrum = path.spectrum();
+        let mut level = self.prepare::<I>(&path);
+        let mut time = path.from;
         let mut since_anchor = 0;
         let mut successes = 0;
-        while time < limit {
-            self.fill::<I>(spectrum, level);
-            self.fill::<I>(spectrum, level + 1);
+        while time < path.limit {
+            for level in [level, level + 1] {
+                self.fill::<I>(spectrum, level);
+            }
             let width = self.width(level);
             certificate.cells += 1;
             match self.judge::<I>(&path, time, level, certificate) {
@@ -134,7 +139,7 @@ impl Walk {
                     }
                 }
                 Outcome::Found(crossing) => {
-                    return (crossing.time < limit).then_some(crossing);
+                    return (crossing.time < path.limit).then_some(crossing);
                 }
                 Outcome::Halve => {
                     level += 1;
@@ -147,13 +152,8 @@ impl Walk {
 
     /// Sets the tables for a phase; returns the first level.
     #[inline(always)]
-    fn prepare<I: Instructions>(
-        &mut self,
-        spectrum: &Spectrum,
-        signals: &[Signal],
-        from: f64,
-        limit: f64,
-    ) -> usize {
+    fn prepare<I: Instructions>(&mut self, path: &Path<'_>) -> usize {
+        let spectrum = path.spectrum();
         let n = spectrum.exponents();
         for level in &mut self.levels {
             level.filled = false;
@@ -180,14 +180,15 @@ impl Walk {
             self.left.put(0, o, Complex::real(Lanes::<I>::of(1.0)));
             Lanes::<I>::of(1.0).store(&mut self.sizes[o..]);
         }
-        if from > 0.0 {
-            self.anchor::<I>(spectrum, from);
+        if path.from > 0.0 {
+            self.anchor::<I>(spectrum, path.from);
         }
-        let pace = signals
+        let pace = path
+            .signals
             .iter()
             .map(|s| s.pace(spectrum))
             .fold(0.0f64, f64::max);
-        self.longest = limit - from;
+        self.longest = path.limit - path.from;
         let mut level = 0;
         while self.width(level) * pace > 2.0 && level < 1000 {
             level += 1;
@@ -247,9 +248,8 @@ impl Walk {
         level: usize,
         certificate: &mut Certificate,
     ) -> Outcome {
-        let spectrum = &path.phases.spectra[path.phase.spectrum];
+        let spectrum = path.spectrum();
         let width = self.width(level);
-        let radius = 0.5 * width;
         for o in (0..spectrum.exponents()).step_by(LANES) {
             let left = self.left.lanes::<I>(0, o);
             self.middle
@@ -262,51 +262,59 @@ impl Walk {
         let smallest =
             SMALLEST_CELL * (time + width).max(self.width(0).min(1.0 / spectrum.fastest));
         let mut first: Option<Crossing> = None;
-        for (watched, signal) in path.signals.iter().enumerate() {
-            let from_zero = time == path.from && path.starts[watched] == Start::Zero;
-            let zero = if from_zero {
-                match self.depart::<I>(path, signal, time, width) {
-                    Departure::Clear => None,
-                    Departure::Inward => return Outcome::Found(Crossing { watched, time }),
-                    Departure::Unknown if width < smallest => {
-                        certificate.missed = certificate.missed.max(signal.rounding(width));
-                        None
-                    }
-                    Departure::Unknown => return Outcome::Halve,
-                }
-            } else {
-                let at = Instant {
-                    time: time + radius,
-                    exponentials: &self.middle,
-                };
-                let jet = signal.jet::<I>(
-                    path.phases,
-                    path.phase,
-                    &at,
-                    &self.bound,
-                    &self.moduli,
-                    radius,
-                );
-                certificate.missed = certificate.missed.max(jet.rounding);
-                match jet.verdict(radius) {
-                    Verdict::Clear => None,
-                    Verdict::EndDecides => self.end::<I>(path, watched, time, time + width),
-                    Verdict::Convex(curvature) => {
-                        self.valley::<I>(path, watched, time, time + width, curvature, jet.rounding)
-                    }
-                    Verdict::Open if width < smallest => {
-                        self.end::<I>(path, watched, time, time + width)
-                    }
-                    Verdict::Open => return Outcome::Halve,
+        for watched in 0..path.signals.len() {
+            let bracket = match self.look::<I>(path, watched, time, width, certificate) {
+                Sight::Clear => None,
+                Sight::AtOnce => return Outcome::Found(Crossing { watched, time }),
+                Sight::Unclear if width >= smallest => return Outcome::Halve,
+                // A departure that cannot be told from rounding is taken as one.
+                Sight::Unclear if path.departs(watched, time) => None,
+                Sight::End | Sight::Unclear => Some((time, time + width)),
+                Sight::Valley(curvature) => {
+                    self.valley::<I>(path, watched, (time, time + width), curvature)
                 }
             };
-            if let Some(time) = zero {
+            let bracket = bracket.filter(|(_, right)| {
+                *right < time + width || self.ends_below::<I>(path, watched, *right)
+            });
+            if let Some((left, right)) = bracket {
+                let time = self.refine::<I>(path, watched, left, right);
                 if first.is_none_or(|f| time < f.time) {
                     first = Some(Crossing { watched, time });
                 }
             }
         }
         first.map_or(Outcome::Clear, Outcome::Found)
+    }
+
+    /// What the jet of one guard says of a cell.
+    #[inline(always)]
+    fn look<I: Instructions>(
+        &mut self,
+        path: &Path<'_>,
+        watched: usize,
+        time: f64,
+        width: f64,
+        certificate: &mut Certificate,
+    ) -> Sight {
+        let signal = &path.signals[watched];
+        if path.departs(watched, time) {
+            return self.depart::<I>(path, signal, time, width);
+        }
+        let radius = 0.5 * width;
+        let at = Instant {
+            time: time + radius,
+            exponentials: &self.middle,
+        };
+        let (phases, phase) = (path.phases, path.phase);
+        let jet = signal.jet::<I>(phases, phase, &at, &self.bound, &self.moduli, radius);
+        certificate.missed = certificate.missed.max(jet.rounding);
+        match jet.verdict(radius) {
+            Verdict::Clear => Sight::Clear,
+            Verdict::EndDecides => Sight::End,
+            Verdict::Convex(curvature) => Sight::Valley(curvature),
+            Verdict::Open => Sight::Unclear,
+        }
     }
 
     /// The first cell of a guard that starts at zero.
@@ -317,7 +325,7 @@ impl Walk {
         signal: &Signal,
         time: f64,
         width: f64,
-    ) -> Departure {
+    ) -> Sight {
         let at = Instant {
             time,
             exponentials: &self.left,
@@ -343,48 +351,37 @@ impl Walk {
             full[2]
         };
         if jet.slope < 0.0 || (jet.slope == 0.0 && curvature < 0.0) {
-            return Departure::Inward;
+            return Sight::AtOnce;
         }
         if jet.departs(width) {
-            Departure::Clear
+            Sight::Clear
         } else {
-            Departure::Unknown
+            Sight::Unclear
         }
     }
 
-    /// Decides by the sign at the right end.
+    /// Whether a guard is negative at the right end of the cell.
     #[inline(always)]
-    fn end<I: Instructions>(
-        &mut self,
-        path: &Path<'_>,
-        watched: usize,
-        left: f64,
-        right: f64,
-    ) -> Option<f64> {
+    fn ends_below<I: Instructions>(&self, path: &Path<'_>, watched: usize, right: f64) -> bool {
         let at = Instant {
             time: right,
             exponentials: &self.right,
         };
-        let value = path.signals[watched].value::<I>(path.phases, path.phase, &at);
-        if value > 0.0 {
-            None
-        } else {
-            Some(self.refine::<I>(path, watched, left, right, 0.5 * (left + right)))
-        }
+        path.signals[watched].value::<I>(path.phases, path.phase, &at) <= 0.0
     }
 
-    /// Looks for the least value of a convex guard and decides by its sign.
+    /// Looks for the least value of a convex guard. A negative one ends a bracket; one that is
+    /// zero to rounding is a touch, after which the right end of the cell decides.
     #[inline(always)]
     fn valley<I: Instructions>(
         &mut self,
         path: &Path<'_>,
         watched: usize,
-        left: f64,
-        right: f64,
+        (left, right): (f64, f64),
         curvature: f64,
-        rounding: f64,
-    ) -> Option<f64> {
+    ) -> Option<(f64, f64)> {
         let signal = &path.signals[watched];
+        let rounding = signal.rounding(right);
         let (mut low, mut high) = (left, right);
         let mut t = 0.5 * (left + right);
         for _ in 0..REFINEMENTS {
@@ -395,7 +392,7 @@ impl Walk {
                 return None;
             }
             if values[0] < -rounding {
-                return Some(self.refine::<I>(path, watched, left, t, 0.5 * (left + t)));
+                return Some((left, t));
             }
             if values[1] > 0.0 {
                 high = t;
@@ -403,25 +400,20 @@ impl Walk {
                 low = t;
             }
             let newton = t - values[1] / values[2];
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
+            let inside = newton > low && newton < high;
+            let next = if inside { newton } else { 0.5 * (low + high) };
             if (next - t).abs() <= 4.0 * f64::EPSILON * t || next == t {
                 break;
             }
             t = next;
         }
-        // The least value is zero to rounding: the guard touches and turns back, unless it
-        // leaves the cell on the wrong side.
-        self.end::<I>(path, watched, left.max(low), right)
+        Some((low, right))
     }
 
     /// Value and derivatives at any time.
     #[inline(always)]
     fn probe<I: Instructions>(&mut self, path: &Path<'_>, signal: &Signal, t: f64) -> [f64; 3] {
-        let spectrum = &path.phases.spectra[path.phase.spectrum];
+        let spectrum = path.spectrum();
         spectrum.exponentials::<I>(t, &mut self.probe);
         let at = Instant {
             time: t,
@@ -439,11 +431,10 @@ impl Walk {
         watched: usize,
         left: f64,
         right: f64,
-        guess: f64,
     ) -> f64 {
         let signal = &path.signals[watched];
         let (mut low, mut high) = (left, right);
-        let mut t = guess;
+        let mut t = 0.5 * (left + right);
         for _ in 0..REFINEMENTS {
             let [value, slope, curvature] = self.probe::<I>(path, signal, t);
             if value > 0.0 {
@@ -471,9 +462,16 @@ impl Walk {
     }
 }
 
-/// How a guard leaves zero.
-enum Departure {
+/// What is seen of one guard on one cell.
+enum Sight {
+    /// It stays positive.
     Clear,
-    Inward,
-    Unknown,
+    /// It is negative as soon as the path begins.
+    AtOnce,
+    /// At most one zero; the right end tells.
+    End,
+    /// Convex, with at least this curvature.
+    Valley(f64),
+    /// Nothing is proved.
+    Unclear,
 }

@@ -27,7 +27,7 @@ use crate::history::{Event, History};
 use crate::law::{Guard, Law, State};
 use crate::number::{Instructions, Vectorised, dispatch};
 use crate::problem::Problem;
-use advance::{Certificate, Walk};
+use advance::{Certificate, Path, Walk};
 use event::Watch;
 use phase::{Phases, Workspace};
 use spectrum::{Secular, Spectrum};
@@ -114,7 +114,7 @@ impl<'a, L: Law> Run<'a, L> {
         let mut fired: Option<(usize, Guard)> = None;
         let mut at_once = 0;
         loop {
-            if self.phases.list.len() % PHASES_BETWEEN_OBSERVATIONS == 0 {
+            if (self.phases.list.len()).is_multiple_of(PHASES_BETWEEN_OBSERVATIONS) {
                 observe(observer, time)?;
             }
             self.begin::<I>(time, &states, &q, &v)?;
@@ -122,15 +122,15 @@ impl<'a, L: Law> Run<'a, L> {
             self.scratch
                 .watch
                 .set::<I, L>(problem, &self.phases, phase, fired);
-            let crossing = self.scratch.walk.first_zero::<I>(
-                &self.phases,
+            let path = Path {
+                phases: &self.phases,
                 phase,
-                self.scratch.watch.active(),
-                &self.scratch.watch.starts,
-                0.0,
-                problem.duration - time,
-                &mut self.certificate,
-            );
+                signals: self.scratch.watch.active(),
+                starts: &self.scratch.watch.starts,
+                from: 0.0,
+                limit: problem.duration - time,
+            };
+            let crossing = (self.scratch.walk).first_zero::<I>(path, &mut self.certificate);
             let Some(crossing) = crossing else {
                 return Ok(());
             };

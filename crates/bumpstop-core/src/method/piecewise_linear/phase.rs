@@ -42,6 +42,8 @@ pub(crate) struct Workspace {
     velocity: Vec<f64>,
     own_position: Vec<f64>,
     own_velocity: Vec<f64>,
+    lack_position: Vec<f64>,
+    lack_velocity: Vec<f64>,
 }
 
 impl Workspace {
@@ -81,7 +83,7 @@ impl Phases {
         which.gather(q, &mut work.position);
         which.gather(v, &mut work.velocity);
         if which.groups > 0 {
-            which.amplitudes::<I>(&work.position, &work.velocity, &mut work.z);
+            work.solve_amplitudes::<I>(which, start)?;
         }
         subtract(which, q, &work.position, &mut work.own_position);
         subtract(which, v, &work.velocity, &mut work.own_velocity);
@@ -100,8 +102,6 @@ impl Phases {
                 work.z.set(0, single.at + i, *a);
             }
         }
-        check_amplitudes::<I>(which, start, work)
-            .inspect_err(|_| self.kept.truncate(phase.kept))?;
         self.amplitude_re.extend_from_slice(&work.z.re);
         self.amplitude_im.extend_from_slice(&work.z.im);
         self.list.push(phase);
@@ -217,45 +217,67 @@ fn subtract(spectrum: &Spectrum, modal: &[f64], combined: &[f64], own: &mut Vec<
     }
 }
 
-/// The proof that the coupled amplitudes are complete: they must give the state back.
-#[inline(always)]
-fn check_amplitudes<I: Instructions>(
-    spectrum: &Spectrum,
-    time: f64,
-    work: &mut Workspace,
-) -> Result<()> {
-    for o in (0..spectrum.coupled_stride).step_by(LANES) {
-        let rate = work.z.lanes::<I>(0, o) * spectrum.lambda.lanes(0, o);
-        work.rate.put(0, o, rate);
-    }
-    let (mut defect, mut size) = (0.0f64, 0.0f64);
-    let (mut defect_rate, mut size_rate) = (0.0f64, 0.0f64);
-    for g in 0..spectrum.groups {
-        let position = spectrum.at_rest[g] + spectrum.group_sum::<I>(g, &work.z);
-        let velocity = spectrum.group_sum::<I>(g, &work.rate);
-        let off = (position - work.position[g]).abs();
-        let off_rate = (velocity - work.velocity[g]).abs();
-        if !(off.is_finite() && off_rate.is_finite()) {
+impl Workspace {
+    /// Amplitudes of the coupled exponents, with the proof that they are complete: they must
+    /// give the state back.
+    ///
+    /// What is lacking is given to them in a second round. Left vectors and shapes are inverse
+    /// to each other only up to rounding, the same one in every phase, and over ten thousand
+    /// impacts an amplitude that grows by it each time would be felt.
+    #[inline(always)]
+    fn solve_amplitudes<I: Instructions>(&mut self, spectrum: &Spectrum, time: f64) -> Result<()> {
+        let (mut size, mut size_rate) = (0.0f64, 0.0f64);
+        self.lack_position.clear();
+        self.lack_velocity.clear();
+        for g in 0..spectrum.groups {
+            let (rest, velocity) = (spectrum.at_rest[g], self.velocity[g]);
+            self.lack_position.push(self.position[g] - rest);
+            self.lack_velocity.push(velocity);
+            size = size.max(self.position[g].abs()).max(rest.abs());
+            size_rate = size_rate.max(velocity.abs());
+        }
+        spectrum.amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.rate);
+        self.z.re[..].copy_from_slice(&self.rate.re);
+        self.z.im[..].copy_from_slice(&self.rate.im);
+        let (lack, lack_rate) = self.find_lack::<I>(spectrum);
+        if !(lack.is_finite() && lack_rate.is_finite()) {
             return Err(Error::Overflow { time });
         }
-        defect = defect.max(off);
-        size = size
-            .max(work.position[g].abs())
-            .max(spectrum.at_rest[g].abs());
-        defect_rate = defect_rate.max(off_rate);
-        size_rate = size_rate.max(work.velocity[g].abs());
+        // A position and a velocity are measured against each other by the fastest exponent.
+        let fastest = spectrum.fastest.max(f64::MIN_POSITIVE);
+        let scale = size.max(size_rate / fastest).max(f64::MIN_POSITIVE);
+        let defect = lack.max(lack_rate / fastest) / scale;
+        if defect > LARGEST_DEFECT {
+            return Err(Error::Defective { time, defect });
+        }
+        spectrum.amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.rate);
+        for o in (0..spectrum.coupled_stride).step_by(LANES) {
+            let whole = self.z.lanes::<I>(0, o) + self.rate.lanes(0, o);
+            self.z.put(0, o, whole);
+        }
+        Ok(())
     }
-    // A position and a velocity are measured against each other by the fastest exponent.
-    let fastest = spectrum.fastest;
-    let position_scale = size.max(size_rate / fastest.max(f64::MIN_POSITIVE));
-    let velocity_scale = size_rate.max(size * fastest);
-    let relative = (defect / position_scale.max(f64::MIN_POSITIVE))
-        .max(defect_rate / velocity_scale.max(f64::MIN_POSITIVE));
-    if relative > LARGEST_DEFECT {
-        return Err(Error::Defective {
-            time,
-            defect: relative,
-        });
+
+    /// What the amplitudes lack of the state; returns the largest lack of position and velocity.
+    #[inline(always)]
+    fn find_lack<I: Instructions>(&mut self, spectrum: &Spectrum) -> (f64, f64) {
+        for o in (0..spectrum.coupled_stride).step_by(LANES) {
+            let rate = self.z.lanes::<I>(0, o) * spectrum.lambda.lanes(0, o);
+            self.rate.put(0, o, rate);
+        }
+        let (mut worst, mut worst_rate) = (0.0f64, 0.0f64);
+        for g in 0..spectrum.groups {
+            self.lack_position[g] -= spectrum.group_sum::<I>(g, &self.z);
+            self.lack_velocity[g] -= spectrum.group_sum::<I>(g, &self.rate);
+            worst = larger(worst, self.lack_position[g].abs());
+            worst_rate = larger(worst_rate, self.lack_velocity[g].abs());
+        }
+        (worst, worst_rate)
     }
-    Ok(())
+}
+
+/// The larger of two, NaN if one is.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
 }

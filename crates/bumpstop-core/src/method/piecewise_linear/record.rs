@@ -1,6 +1,6 @@
 //! What an exact run keeps: its phases, from which everything else is read.
 
-use super::advance::{Certificate, Start, Walk};
+use super::advance::{Certificate, Path, Start, Walk};
 use super::dissipation::{Dissipated, Dissipation};
 use super::phase::{Phase, Phases, Workspace};
 use super::signal::{Instant, Signal};
@@ -8,7 +8,7 @@ use super::spectrum::{Rows, View};
 use crate::energy::{self, Ledger};
 use crate::impacts::Impact;
 use crate::law::{COORDINATES, Guard, Law, State, project};
-use crate::number::{Instructions, Vectorised, dispatch};
+use crate::number::{Instructions, Plain, Vectorised, dispatch};
 use crate::problem::Problem;
 use std::sync::OnceLock;
 
@@ -175,7 +175,7 @@ impl PhaseRecord {
 
     /// Impacts of one law.
     pub(crate) fn impacts<L: Law>(&self, problem: &Problem<L>, law: usize) -> Vec<Impact> {
-        dispatch(Impacts(ContactReader::new(self, problem, law)))
+        ContactReader::new(self, problem, law).impacts()
     }
 }
 
@@ -294,16 +294,6 @@ impl<L: Law> Vectorised for Settlement<'_, L> {
     }
 }
 
-struct Impacts<'a, L>(ContactReader<'a, L>);
-
-impl<L: Law> Vectorised for Impacts<'_, L> {
-    type Output = Vec<Impact>;
-    #[inline(always)]
-    fn run<I: Instructions>(mut self) -> Vec<Impact> {
-        self.0.impacts::<I>()
-    }
-}
-
 /// Kinetic, elastic and stored energies and work of loads.
 fn state_ledger<L: Law>(problem: &Problem<L>, states: &[State], motion: &Motion) -> Ledger {
     let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), &motion.q, &motion.v);
@@ -363,7 +353,8 @@ fn add_switch_losses<L: Law>(
     }
 }
 
-/// Reads the contact of one law along phases.
+/// Reads the contact of one law along phases, once and at leisure: in plain arithmetic, which
+/// gives the same bits and compiles once.
 struct ContactReader<'a, L> {
     record: &'a PhaseRecord,
     problem: &'a Problem<L>,
@@ -386,8 +377,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
         }
     }
 
-    #[inline(always)]
-    fn impacts<I: Instructions>(&mut self) -> Vec<Impact> {
+    fn impacts(&mut self) -> Vec<Impact> {
         let phases = &self.record.phases;
         let which = &self.problem.laws[self.law];
         let mut impacts = Vec::new();
@@ -395,20 +385,18 @@ impl<'a, L: Law> ContactReader<'a, L> {
         for (number, phase) in phases.list.iter().enumerate() {
             let contact = which.in_contact(phases.states(*phase)[self.law]);
             if contact && current.is_none() {
-                let [_, speed, _] = self.at::<I>(*phase, 0.0);
+                let [_, speed, _] = self.at(*phase, 0.0);
                 current = Some(Impact::starting(phase.start, -speed));
             }
-            if !contact {
-                if let Some(mut impact) = current.take() {
-                    impact.end = phase.start;
-                    impact.opening_speed = self.at::<I>(*phase, 0.0)[1];
-                    impacts.push(impact);
-                }
+            if !contact && let Some(mut impact) = current.take() {
+                impact.end = phase.start;
+                impact.opening_speed = self.at(*phase, 0.0)[1];
+                impacts.push(impact);
             }
             if let Some(impact) = &mut current {
                 let next = phases.list.get(number + 1);
                 let end = next.map_or(self.record.duration, |p| p.start);
-                self.add_phase::<I>(*phase, end - phase.start, impact);
+                self.add_phase(*phase, end - phase.start, impact);
             }
         }
         impacts.extend(current);
@@ -418,9 +406,8 @@ impl<'a, L: Law> ContactReader<'a, L> {
     }
 
     /// Distance, its rate and the force, `t` after the start of a phase.
-    #[inline(always)]
-    fn at<I: Instructions>(&mut self, phase: Phase, t: f64) -> [f64; 3] {
-        let motion = (self.record).motion_in::<I, L>(self.problem, phase, t, &mut self.work);
+    fn at(&mut self, phase: Phase, t: f64) -> [f64; 3] {
+        let motion = (self.record).motion_in::<Plain, L>(self.problem, phase, t, &mut self.work);
         let law = &self.problem.laws[self.law];
         let (position, velocity) = (project(law, &motion.q), project(law, &motion.v));
         let (distance, rate) = law.distance(&position, &velocity);
@@ -429,8 +416,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
     }
 
     /// Adds a phase of the given length to an impact.
-    #[inline(always)]
-    fn add_phase<I: Instructions>(&mut self, phase: Phase, length: f64, impact: &mut Impact) {
+    fn add_phase(&mut self, phase: Phase, length: f64, impact: &mut Impact) {
         let law = &self.problem.laws[self.law];
         let state = self.record.phases.states(phase)[self.law];
         let Some(piece) = law.piece(state).filter(|p| p.acts()) else {
@@ -446,85 +432,60 @@ impl<'a, L: Law> ContactReader<'a, L> {
         force.velocity[0] = -piece.damping[0][0];
         let mut distance = force;
         (distance.position[0], distance.velocity[0]) = (1.0, 0.0);
-        let signal = self.signal::<I>(phase, &force);
+        let signal = self.signal(phase, &force);
         impact.impulse += signal.integral(&self.record.phases, phase, length);
-        self.add_peaks::<I>(phase, length, &signal, impact);
-        let signal = self.signal::<I>(phase, &distance);
-        self.add_work::<I>(phase, length, &signal, impact);
+        self.add_peaks(phase, length, &signal, impact);
+        let signal = self.signal(phase, &distance);
+        self.add_work(phase, length, &signal, impact);
     }
 
-    #[inline(always)]
-    fn signal<I: Instructions>(&self, phase: Phase, guard: &Guard) -> Signal {
+    fn signal(&self, phase: Phase, guard: &Guard) -> Signal {
         let mut signal = Signal::default();
         let remaining = self.problem.duration - phase.start;
         let phases = &self.record.phases;
         let views = &phases.spectra[phase.spectrum].views[self.first_view..];
-        signal.set::<I>(phases, phase, views, guard, remaining);
+        signal.set::<Plain>(phases, phase, views, guard, remaining);
         signal
     }
 
-    #[inline(always)]
-    fn add_peaks<I: Instructions>(
-        &mut self,
-        phase: Phase,
-        length: f64,
-        force: &Signal,
-        impact: &mut Impact,
-    ) {
+    fn add_peaks(&mut self, phase: Phase, length: f64, force: &Signal, impact: &mut Impact) {
         let mut instants = vec![0.0, length];
-        instants.extend(self.turning_points::<I>(phase, length, force));
+        instants.extend(self.turning_points(phase, length, force));
         for t in instants {
-            let [_, _, force] = self.at::<I>(phase, t);
+            let [_, _, force] = self.at(phase, t);
             impact.see_force(phase.start + t, force);
         }
     }
 
     /// Between turning points of the distance the work has one sign.
-    #[inline(always)]
-    fn add_work<I: Instructions>(
-        &mut self,
-        phase: Phase,
-        length: f64,
-        distance: &Signal,
-        impact: &mut Impact,
-    ) {
+    fn add_work(&mut self, phase: Phase, length: f64, distance: &Signal, impact: &mut Impact) {
         let mut instants = vec![0.0];
-        instants.extend(self.turning_points::<I>(phase, length, distance));
+        instants.extend(self.turning_points(phase, length, distance));
         instants.push(length);
-        let given: Vec<f64> = instants
-            .iter()
-            .map(|t| self.taken::<I>(phase, *t))
-            .collect();
+        let given: Vec<f64> = instants.iter().map(|t| self.taken(phase, *t)).collect();
         for pair in given.windows(2) {
             impact.add_work(pair[0] - pair[1]);
         }
     }
 
     /// Energy in the law, stored or dissipated since the start of the phase.
-    #[inline(always)]
-    fn taken<I: Instructions>(&mut self, phase: Phase, t: f64) -> f64 {
+    fn taken(&mut self, phase: Phase, t: f64) -> f64 {
         let law = &self.problem.laws[self.law];
         let form = &self.record.accounts(self.problem).forms[phase.spectrum];
-        let dissipated = form.until::<I>(&self.record.phases, phase, t, &mut self.work);
-        let motion = (self.record).motion_in::<I, L>(self.problem, phase, t, &mut self.work);
+        let dissipated = form.until::<Plain>(&self.record.phases, phase, t, &mut self.work);
+        let motion = (self.record).motion_in::<Plain, L>(self.problem, phase, t, &mut self.work);
         let state = self.record.phases.states(phase)[self.law];
         law.stored(state, &project(law, &motion.q)) + dissipated.laws[self.law]
     }
 
     /// All zeros of a signal's rate inside a phase, in order.
-    #[inline(always)]
-    fn turning_points<I: Instructions>(
-        &mut self,
-        phase: Phase,
-        length: f64,
-        signal: &Signal,
-    ) -> Vec<f64> {
+    fn turning_points(&mut self, phase: Phase, length: f64, signal: &Signal) -> Vec<f64> {
         let phases = &self.record.phases;
         let mut rate = signal.derivative(phases, phase);
         let mut found = Vec::new();
         let mut from = 0.0;
         let mut certificate = Certificate::default();
-        let mut start = if rate.orient::<I>(phases, phase) {
+        let mut start = if rate.orient::<Plain>(phases, phase) {
             Start::Positive
         } else {
             Start::Zero
@@ -532,15 +493,15 @@ impl<'a, L: Law> ContactReader<'a, L> {
         let limit = MOST_TURNING_POINTS;
         while found.len() < limit {
             let rates = std::slice::from_ref(&rate);
-            let zero = self.walk.first_zero::<I>(
+            let path = Path {
                 phases,
                 phase,
-                rates,
-                &[start],
+                signals: rates,
+                starts: &[start],
                 from,
-                length,
-                &mut certificate,
-            );
+                limit: length,
+            };
+            let zero = self.walk.first_zero::<Plain>(path, &mut certificate);
             let Some(zero) = zero else {
                 break;
             };

@@ -3,7 +3,7 @@
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
 use super::spectrum::{Rows, Spectrum, View};
-use crate::law::{COORDINATES, Guard};
+use crate::law::Guard;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
 /// Exponents with `|lambda| r` below this are followed by their Taylor polynomial over a cell of
@@ -32,6 +32,7 @@ pub(crate) struct Signal {
     size: Vec<f64>,
     polynomial: [f64; 3],
     specials: Vec<Special>,
+    remaining: f64,
     total: f64,
     total_rate: f64,
 }
@@ -58,6 +59,7 @@ impl Signal {
         self.fit(spectrum.exponents());
         self.polynomial = [guard.constant, 0.0, 0.0];
         self.specials.clear();
+        self.remaining = remaining;
         let (re, im) = phases.amplitudes(phase);
         for o in (0..spectrum.exponents()).step_by(LANES) {
             let lambda = spectrum.lambda.lanes::<I>(0, o);
@@ -83,7 +85,7 @@ impl Signal {
             if *position != 0.0 || velocity != 0.0 {
                 let view = &views[coordinate];
                 self.polynomial[0] += position * view.rest;
-                self.add_singles(phases, phase, view, *position, velocity, remaining);
+                self.add_singles(phases, phase, view, *position, velocity);
             }
         }
     }
@@ -103,7 +105,6 @@ impl Signal {
         view: &View,
         of_position: f64,
         of_velocity: f64,
-        remaining: f64,
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
         for (single, weight) in view.singles.iter().enumerate() {
@@ -114,8 +115,8 @@ impl Signal {
             let (x0, v0) = phases.kept(phase, single);
             let (position, velocity) = (weight * of_position, weight * of_velocity);
             if motion.is_special() {
-                let third = position.abs() * motion.special_bound(3, x0, v0, remaining)
-                    + velocity.abs() * motion.special_bound(4, x0, v0, remaining);
+                let third = position.abs() * motion.special_bound(3, x0, v0, self.remaining)
+                    + velocity.abs() * motion.special_bound(4, x0, v0, self.remaining);
                 self.specials.push(Special {
                     single,
                     of_position: position,
@@ -169,7 +170,7 @@ impl Signal {
             rate.polynomial[0] += velocity * motion.force;
             special.of_velocity = special.of_position - motion.damping * velocity;
             special.of_position = -motion.omega2 * velocity;
-            let bound = |order| motion.special_bound(order, x0, v0, f64::MAX.sqrt());
+            let bound = |order| motion.special_bound(order, x0, v0, self.remaining);
             special.third =
                 special.of_position.abs() * bound(3) + special.of_velocity.abs() * bound(4);
             rate.total += special.of_velocity.abs() * v0.abs();
@@ -198,9 +199,8 @@ impl Signal {
         let mut total = t * (p[0] + t * (p[1] / 2.0 + t * p[2] / 3.0));
         for j in 0..self.size.len() {
             let lambda = spectrum.lambda.get(0, j);
-            if self.size[j] > 0.0 && lambda.norm2() > 0.0 {
-                let change = lambda.scale(t).exp().plus(-1.0);
-                total += (self.terms[0].get(0, j) * change * lambda.recip()).re;
+            if self.size[j] > 0.0 {
+                total += (self.terms[0].get(0, j) * grown(lambda, t)).re;
             }
         }
         for special in &self.specials {
@@ -376,6 +376,20 @@ impl Signal {
     }
 }
 
+/// Integral of `exp(lambda s)` from 0 to t.
+fn grown(lambda: Complex<f64>, t: f64) -> Complex<f64> {
+    let turn = lambda.scale(t);
+    if turn.norm2() > 1e-2 {
+        return turn.exp().plus(-1.0) * lambda.recip();
+    }
+    // t (1 + z/2 (1 + z/3 (1 + ...)))
+    let mut series = Complex::real(1.0);
+    for n in (2..=10).rev() {
+        series = (turn * series).scale(1.0 / f64::from(n)).plus(1.0);
+    }
+    series.scale(t)
+}
+
 /// `position . view + velocity . view lambda` for eight exponents.
 #[inline(always)]
 fn weights<I: Instructions>(
@@ -385,13 +399,13 @@ fn weights<I: Instructions>(
     offset: usize,
 ) -> Complex<Lanes<I>> {
     let mut total = Complex::zero();
-    for coordinate in 0..COORDINATES {
-        let (position, velocity) = (guard.position[coordinate], guard.velocity[coordinate]);
-        if position != 0.0 || velocity != 0.0 {
-            let view = views[coordinate].exponents.lanes(0, offset);
+    let factors = guard.position.iter().zip(guard.velocity);
+    for ((position, velocity), view) in factors.zip(views) {
+        if *position != 0.0 || velocity != 0.0 {
+            let view = view.exponents.lanes(0, offset);
             let factor = lambda
                 .scale(Lanes::<I>::of(velocity))
-                .plus(Lanes::<I>::of(position));
+                .plus(Lanes::<I>::of(*position));
             total += view * factor;
         }
     }

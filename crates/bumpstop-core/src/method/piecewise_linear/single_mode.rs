@@ -6,15 +6,16 @@
 
 use crate::number::{Complex, Number};
 
-/// Slow: `w T` and `c T` below this over the run's length T.
-const SLOW: f64 = 0.05;
+/// Slow: `w T` and `c T` below this over the run's length T. Faster modes lose at most a
+/// factor of a few in the cancellation of their exponentials.
+const SLOW: f64 = 0.7;
 
 /// Near critical: `|c^2/4 - w2|` below this part of `w2`. On either side the exponentials'
 /// amplitudes grow by at most a hundred over the motion they sum to.
 const NEAR_CRITICAL: f64 = 1e-4;
 
-/// Terms of the Taylor series of a slow mode; `SLOW^16/16!` is far below rounding.
-const TAYLOR_TERMS: usize = 16;
+/// Terms of the Taylor series of a slow mode; `SLOW^20/20!` is far below rounding.
+const TAYLOR_TERMS: usize = 20;
 
 /// The regime of a mode, with what its closed form needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,8 +141,8 @@ impl SingleMode {
     pub(crate) fn special_bound(&self, order: usize, x0: f64, v0: f64, duration: f64) -> f64 {
         let (w2, c, p) = (self.omega2, self.damping, self.force);
         if self.regime == Regime::Slow {
-            // Over a slow run velocities change by less than a tenth beyond the force's part.
-            let speed = 1.1 * (v0.abs() + (p.abs() + w2.abs() * x0.abs()) * duration);
+            // speed <= |v0| + (|p| + |w2| (|x0| + speed T)) T, and |w2| T^2 < 1/2.
+            let speed = 2.0 * (v0.abs() + (p.abs() + w2.abs() * x0.abs()) * duration);
             let size = x0.abs() + speed * duration;
             let second = p.abs() + c * speed + w2.abs() * size;
             let third = c * second + w2.abs() * speed;

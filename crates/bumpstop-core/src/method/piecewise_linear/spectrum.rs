@@ -8,7 +8,7 @@
 use super::dense;
 use super::secular::Coupling;
 use super::single_mode::SingleMode;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::law::{COORDINATES, Law, Piece, State};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number, padded};
 use crate::problem::Problem;
@@ -206,7 +206,7 @@ impl Spectrum {
         let forces = group_forces(problem, &spectrum.members, coupling.omega2.len());
         spectrum.groups = coupling.omega2.len();
         spectrum.group_damping.clone_from(&coupling.damping);
-        spectrum.at_rest = static_groups(coupling, &forces, law.constant);
+        spectrum.at_rest = static_groups(coupling, &forces, law.constant).ok_or(Error::NoRest)?;
         let roots = match secular {
             Secular::Try => coupling.solve::<I>(),
             Secular::Skip => None,
@@ -371,7 +371,7 @@ impl Spectrum {
         }
     }
 
-    /// Amplitudes of the coupled exponents from the groups' state.
+    /// Amplitudes of the coupled exponents from the groups' state, measured from rest.
     #[inline(always)]
     pub(crate) fn amplitudes<I: Instructions>(
         &self,
@@ -382,7 +382,7 @@ impl Spectrum {
         for o in (0..self.coupled_stride).step_by(LANES) {
             let mut total = Complex::<Lanes<I>>::zero();
             for g in 0..self.groups {
-                let y = Lanes::<I>::of(position[g] - self.at_rest[g]);
+                let y = Lanes::<I>::of(position[g]);
                 total += self.left_position.lanes(g, o).scale(y);
                 total += self
                     .left_velocity
@@ -550,8 +550,9 @@ fn group_forces<L: Law>(problem: &Problem<L>, members: &[Member], groups: usize)
 
 /// Static position of the groups on the spring: `w_i^2 y_i = p_i + phi_i F`,
 /// `F = constant - k sum phi_i y_i`. The softest group's own row gives F, so that a rigid-body
-/// mode (stiffness zero) needs no special case.
-fn static_groups(coupling: &Coupling, forces: &[f64], constant: f64) -> Vec<f64> {
+/// mode (stiffness zero) needs no special case. Further ones (of other damping) stay where they
+/// are if the forces on them balance; `None` if not.
+fn static_groups(coupling: &Coupling, forces: &[f64], constant: f64) -> Option<Vec<f64>> {
     let Coupling {
         omega2,
         phi,
@@ -561,7 +562,7 @@ fn static_groups(coupling: &Coupling, forces: &[f64], constant: f64) -> Vec<f64>
     let soft = (0..omega2.len())
         .min_by(|&a, &b| omega2[a].abs().total_cmp(&omega2[b].abs()))
         .unwrap_or(0);
-    let others = || (0..omega2.len()).filter(|&i| i != soft);
+    let others = || (0..omega2.len()).filter(|&i| i != soft && omega2[i] != 0.0);
     let flexibility: f64 = others().map(|i| phi[i] * phi[i] / omega2[i]).sum();
     let pushed: f64 = others().map(|i| phi[i] * forces[i] / omega2[i]).sum();
     let compliance = flexibility + 1.0 / stiffness;
@@ -570,16 +571,19 @@ fn static_groups(coupling: &Coupling, forces: &[f64], constant: f64) -> Vec<f64>
     let right = constant / stiffness - pushed + compliance * forces[soft] / phi[soft];
     let y = right / factor;
     let force = (omega2[soft] * y - forces[soft]) / phi[soft];
+    let pushed = |i: usize| forces[i] + phi[i] * force;
+    let balanced = |i: usize| pushed(i).abs() <= BALANCED * forces[i].abs();
     (0..omega2.len())
-        .map(|i| {
-            if i == soft {
-                y
-            } else {
-                (forces[i] + phi[i] * force) / omega2[i]
-            }
+        .map(|i| match omega2[i] {
+            _ if i == soft => Some(y),
+            0.0 => balanced(i).then_some(0.0),
+            w2 => Some(pushed(i) / w2),
         })
         .collect()
 }
+
+/// Forces on a rigid-body mode are in balance when what is left of them is rounding.
+const BALANCED: f64 = 1e-12;
 
 /// Reciprocal, zero for zero (the padding of the lanes).
 #[inline(always)]

@@ -239,9 +239,9 @@ mod tests {
         fn lanes_give_the_bits_of_single_numbers(a in prop::array::uniform8(-20.0f64..20.0)) {
             let lanes = Lanes::<Plain>::new(a);
             let (sin, cos) = lanes.sin_cos();
-            for i in 0..LANES {
-                prop_assert_eq!(lanes.exp().numbers()[i], Number::exp(a[i]));
-                prop_assert_eq!((sin.numbers()[i], cos.numbers()[i]), Number::sin_cos(a[i]));
+            for (i, x) in a.into_iter().enumerate() {
+                prop_assert_eq!(lanes.exp().numbers()[i], Number::exp(x));
+                prop_assert_eq!((sin.numbers()[i], cos.numbers()[i]), Number::sin_cos(x));
             }
         }
     }

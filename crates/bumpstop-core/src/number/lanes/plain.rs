@@ -1,4 +1,7 @@
 //! Eight numbers in an array, for machines without wider instructions.
+//!
+//! Arithmetic stays in functions of its own: written out eight times at every place it would
+//! take minutes to compile, for machines that hardly anyone has.
 
 use super::{Instructions, LANES};
 
@@ -32,39 +35,39 @@ impl Instructions for Plain {
     fn store(x: Self::Vector, to: &mut [f64; LANES]) {
         *to = x;
     }
-    #[inline(always)]
+    #[inline(never)]
     fn add(a: Self::Vector, b: Self::Vector) -> Self::Vector {
         each!(i => a[i] + b[i])
     }
-    #[inline(always)]
+    #[inline(never)]
     fn sub(a: Self::Vector, b: Self::Vector) -> Self::Vector {
         each!(i => a[i] - b[i])
     }
-    #[inline(always)]
+    #[inline(never)]
     fn mul(a: Self::Vector, b: Self::Vector) -> Self::Vector {
         each!(i => a[i] * b[i])
     }
-    #[inline(always)]
+    #[inline(never)]
     fn div(a: Self::Vector, b: Self::Vector) -> Self::Vector {
         each!(i => a[i] / b[i])
     }
-    #[inline(always)]
+    #[inline(never)]
     fn sqrt(a: Self::Vector) -> Self::Vector {
         each!(i => a[i].sqrt())
     }
-    #[inline(always)]
+    #[inline(never)]
     fn and(a: Self::Vector, b: Self::Vector) -> Self::Vector {
         each!(i => f64::from_bits(a[i].to_bits() & b[i].to_bits()))
     }
-    #[inline(always)]
+    #[inline(never)]
     fn xor(a: Self::Vector, b: Self::Vector) -> Self::Vector {
         each!(i => f64::from_bits(a[i].to_bits() ^ b[i].to_bits()))
     }
-    #[inline(always)]
+    #[inline(never)]
     fn shift_left<const N: u32>(a: Self::Vector) -> Self::Vector {
         each!(i => f64::from_bits(a[i].to_bits() << N))
     }
-    #[inline(always)]
+    #[inline(never)]
     fn select_less(
         a: Self::Vector,
         b: Self::Vector,
