@@ -40,7 +40,8 @@ def random_problem(seed: int) -> StopProblem:
     reference = float(np.median(omega[omega > 0])) if omega.any() else 10.0
     damping = 2 * ratios(rng, modes) * omega
     if omega[0] == 0.0 and rng.random() < 0.3:
-        damping[0] = reference * 10 ** rng.uniform(-2, 0)  # a rigid mode with drag
+        # Rigid modes with drag; rigid modes of different drag are refused under a push.
+        damping[omega == 0.0] = reference * 10 ** rng.uniform(-2, 0)
     stiffness = reference**2 / (row @ row) * 10 ** rng.uniform(-2, 4)
     if rng.random() < 0.1:
         stiffness *= 1e4

