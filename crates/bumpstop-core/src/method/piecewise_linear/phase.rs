@@ -8,7 +8,7 @@ use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 /// The largest error, relative to the state's largest part, with which the amplitudes of a
 /// phase may give back the state they were made from. Beyond it the eigenvectors are too close
 /// to each other to be trusted.
-const LARGEST_DEFECT: f64 = 1e-11;
+const LARGEST_DEFECT: f64 = 1e-10;
 
 /// One phase.
 #[derive(Debug, Clone, Copy)]
