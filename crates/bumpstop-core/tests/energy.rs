@@ -30,12 +30,7 @@ impl Law for Corrupted {
     fn sampled_state(&self, position: &Local<f64>, velocity: &Local<f64>) -> State {
         self.stop.sampled_state(position, velocity)
     }
-    fn force<T: Number>(
-        &self,
-        state: State,
-        position: &Local<T>,
-        velocity: &Local<T>,
-    ) -> Local<T> {
+    fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
         (self.stop.force(state, position, velocity)).map(|force| force * T::of(self.factor))
     }
     fn piece(&self, state: State) -> Option<Piece> {
