@@ -61,9 +61,9 @@ impl Stop {
     fn push<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> T {
         let spring = T::of(self.stiffness) * self.obstacle.distance(position);
         if self.damping == 0.0 {
-            // The velocity is known later than the position: do not wait for it in vain.
             return -spring;
         }
+        only_with_a_damper();
         -(spring + T::of(self.damping) * self.obstacle.rate(velocity))
     }
 
@@ -84,6 +84,12 @@ impl Stop {
         }
     }
 }
+
+/// Keeps a branch a branch: the velocity is known later than the position, and a choice between
+/// two values would wait for both.
+#[cold]
+#[inline]
+fn only_with_a_damper() {}
 
 impl Law for Stop {
     fn rows(&self) -> &[Vec<f64>] {

@@ -5,15 +5,15 @@
 //! second-order backward difference, so that a damper in a stop keeps the order.
 //! Source: T. J. R. Hughes, The Finite Element Method, 1987, section 9.1.
 
+use super::Observer;
 use super::fixed_step::{
-    LawForces, STEPS_BETWEEN_OBSERVATIONS, Step, StepRecord, VelocityRule, check_step,
-    highest_frequency, row_products,
+    Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, coupling,
+    highest_frequency, modal, pushed,
 };
-use super::{Observer, observe};
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{Law, project};
-use crate::number::{Block, Instructions, Lanes, Number, Vectorised, blocks, dispatch, dot};
+use crate::law::{COORDINATES, Law, Local, project};
+use crate::number::{Instructions, Lanes, Number, dispatch};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 use std::sync::Arc;
@@ -37,157 +37,184 @@ pub fn simulate<L: Law>(
 ) -> Result<History<L>> {
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Central)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
-    let mut laws = LawForces::new(problem);
-    dispatch(March {
+    let march = CentralDifference {
         problem,
         record: &mut record,
-        laws: &mut laws,
         observer,
-    })?;
+    };
+    dispatch(Sized { problem, march })?;
     record.check()?;
-    Ok(History::of_steps(problem, NAME, record, laws.into_events()))
+    let events = record.events(problem);
+    Ok(History::of_steps(problem, NAME, record, events))
 }
 
 /// The scheme solved for `q[n+1] = own q[n] + past q[n-1] + gain f[n]`.
 struct Coefficients {
-    own: Vec<Block>,
-    past: Vec<Block>,
-    gain: Vec<Block>,
+    own: Vec<f64>,
+    past: Vec<f64>,
+    gain: Vec<f64>,
 }
 
 impl Coefficients {
     fn new(system: &ModalSystem, dt: f64) -> Self {
-        let each = |f: &dyn Fn(f64, f64) -> f64| {
-            let values: Vec<f64> = (system.omega2().iter().zip(system.damping()))
-                .map(|(w2, c)| f(*w2, 0.5 * c * dt))
-                .collect();
-            blocks(&values)
+        let each = |f: fn(f64, f64, f64) -> f64| {
+            let modes = system.omega2().iter().zip(system.damping());
+            modes.map(|(w2, c)| f(*w2, 0.5 * c * dt, dt)).collect()
         };
         Self {
-            own: each(&|w2, half| (2.0 - w2 * dt * dt) / (1.0 + half)),
-            past: each(&|_, half| -(1.0 - half) / (1.0 + half)),
-            gain: each(&|_, half| dt * dt / (1.0 + half)),
+            own: each(|w2, half, dt| (2.0 - w2 * dt * dt) / (1.0 + half)),
+            past: each(|_, half, _| -(1.0 - half) / (1.0 + half)),
+            gain: each(|_, half, dt| dt * dt / (1.0 + half)),
         }
     }
 }
 
-struct March<'a, 'b, 'o, L> {
+struct CentralDifference<'a, 'o, L> {
     problem: &'a Problem<L>,
     record: &'a mut StepRecord,
-    laws: &'a mut LawForces<'b, L>,
     observer: Observer<'o>,
 }
 
-impl<L: Law> Vectorised for March<'_, '_, '_, L> {
-    type Output = Result<()>;
+impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
+    /// The laws do not wait for the modes of their own step: local positions follow from the
+    /// modes of the two steps before and the forces alone,
+    /// `x[n+1] = (row own) . q[n] + (row past) . q[n-1] + (row gain) . (p + row f)`.
     #[inline(always)]
-    fn run<I: Instructions>(self) -> Result<()> {
-        march::<I, L>(self.problem, self.record, self.laws, self.observer)
+    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()> {
+        let Self {
+            problem,
+            record,
+            observer,
+        } = self;
+        let dt = record.dt;
+        let coefficients = Coefficients::new(&problem.system, dt);
+        let gain = &coefficients.gain;
+        let own = modal::<I, B>(&coefficients.own);
+        let past = modal::<I, B>(&coefficients.past);
+        let load = modal::<I, B>(&weighted(problem.forcing.forces(), gain));
+        let laws = A::make(problem.laws.len(), |i| &problem.laws[i]);
+        let laws = laws.as_ref();
+        let couplings = A::make(laws.len(), |i| {
+            A::make(laws.len(), |j| coupling(laws[i], laws[j], gain))
+        });
+        let initial = displacement_before(problem, dt);
+        let mut contacts = A::make(laws.len(), |i| {
+            Contact::<I, B>::new(laws[i], problem, &initial, &coefficients, dt)
+        });
+        let contacts = contacts.as_mut();
+        let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
+        let forces = forces.as_mut();
+        let mut before = modal::<I, B>(&initial);
+        let mut q = modal::<I, B>(&problem.displacement);
+        record.begin(&initial, &problem.displacement);
+        let (blocks, states) = (q.as_ref().len(), laws.len().max(1));
+        while let Some(stretch) = record.next_stretch() {
+            stretch.observe(observer)?;
+            let rows = stretch.rows.chunks_exact_mut(blocks);
+            for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
+                for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
+                    states[i] = law.sampled_state(&contact.now, &contact.rate);
+                    forces[i] = law.force(states[i], &contact.now, &contact.rate);
+                }
+                let coupled = contacts.iter_mut().zip(couplings.as_ref());
+                for (law, (contact, couplings)) in laws.iter().zip(coupled) {
+                    for c in 0..law.rows().len() {
+                        let free = contact.free(c, q.as_ref(), before.as_ref());
+                        let pushed = pushed(laws, couplings.as_ref(), c, forces);
+                        contact.push(c, free + pushed, dt);
+                    }
+                }
+                let known = own.as_ref().iter().zip(past.as_ref()).zip(load.as_ref());
+                let both = q.as_mut().iter_mut().zip(before.as_mut());
+                for ((q, before), ((own, past), load)) in both.zip(known) {
+                    let next = *past * *before + *load + *own * *q;
+                    (*before, *q) = (*q, next);
+                }
+                for ((law, contact), force) in laws.iter().zip(contacts.iter()).zip(&*forces) {
+                    for c in 0..law.rows().len() {
+                        let force = Lanes::<I>::of(force[c]);
+                        let pushes = contact.pushes[c].as_ref();
+                        for (q, push) in q.as_mut().iter_mut().zip(pushes) {
+                            *q += *push * force;
+                        }
+                    }
+                }
+                for (block, q) in row.iter_mut().zip(q.as_ref()) {
+                    q.to_block(block);
+                }
+            }
+        }
+        Ok(())
     }
 }
 
-/// The structure's part of a step does not wait for the laws: local positions follow from it
-/// and the forces alone, `x[n+1] = row . free + (row . gain row) f`, so that the forces of the
-/// next step are known before the modes are.
-#[inline(always)]
-fn march<I: Instructions, L: Law>(
-    problem: &Problem<L>,
-    record: &mut StepRecord,
-    laws: &mut LawForces<'_, L>,
-    observer: Observer<'_>,
-) -> Result<()> {
-    let dt = record.dt;
-    let Coefficients { own, past, gain } = Coefficients::new(&problem.system, dt);
-    let load: Vec<f64> = (gain.as_flattened().iter().zip(problem.forcing.forces()))
-        .map(|(gain, force)| gain * force)
-        .collect();
-    let load = blocks(&load);
-    let rows = laws.rows.clone();
-    let coupling = row_products(&rows, &gain);
-    let mut forces = vec![0.0; rows.len()];
-    let pushes: Vec<Vec<Block>> = rows.iter().map(|row| weighted(row, &gain)).collect();
-    let mut q = blocks(&problem.displacement);
-    let mut before = blocks(&displacement_before(problem, dt));
-    let mut free = q.clone();
-    let mut local = LocalHistory::new::<I>(&rows, &before, &q, &blocks(&problem.velocity), dt);
-    record.push(&before);
-    record.push(&q);
-    for n in 0..=record.steps {
-        if n % STEPS_BETWEEN_OBSERVATIONS == 0 {
-            observe(observer, n as f64 * dt)?;
-        }
-        laws.evaluate(n as f64 * dt, &local.now, &local.rate, &mut forces);
-        let known = own.iter().zip(&q).zip(past.iter().zip(&before)).zip(&load);
-        for (free, (((own, q), (past, before)), load)) in free.iter_mut().zip(known) {
-            let own = Lanes::<I>::of_block(own) * Lanes::of_block(q);
-            let past = Lanes::of_block(past) * Lanes::of_block(before);
-            (own + past + Lanes::of_block(load)).to_block(free);
-        }
-        for (r, row) in rows.iter().enumerate() {
-            let mut pushed = 0.0;
-            for (product, force) in coupling[r * rows.len()..].iter().zip(&forces) {
-                pushed += product * force;
-            }
-            local.push(r, dot::<I>(row, &free) + pushed, dt);
-        }
-        for (push, force) in pushes.iter().zip(&forces) {
-            let force = Lanes::<I>::of(*force);
-            for (free, push) in free.iter_mut().zip(push) {
-                (Lanes::of_block(free) + Lanes::of_block(push) * force).to_block(free);
-            }
-        }
-        std::mem::swap(&mut before, &mut q);
-        std::mem::swap(&mut q, &mut free);
-        record.push(&q);
-    }
-    Ok(())
+fn weighted(row: &[f64], weight: &[f64]) -> Vec<f64> {
+    row.iter().zip(weight).map(|(r, w)| r * w).collect()
 }
 
-fn weighted(row: &[Block], weight: &[Block]) -> Vec<Block> {
-    let both = row.as_flattened().iter().zip(weight.as_flattened());
-    blocks(&both.map(|(r, w)| r * w).collect::<Vec<_>>())
+/// A law's rows times the scheme's coefficients, and its local positions at three steps.
+struct Contact<I: Instructions, B: Count> {
+    own: Local<Modal<I, B>>,
+    past: Local<Modal<I, B>>,
+    /// What the loads add to the local positions in a step.
+    load: Local<f64>,
+    /// What unit forces add to the modes in a step.
+    pushes: Local<Modal<I, B>>,
+    now: Local<f64>,
+    rate: Local<f64>,
+    previous: Local<f64>,
+    older: Local<f64>,
 }
 
-/// Local positions at three steps and the rate of the latest, one entry a row.
-struct LocalHistory {
-    now: Vec<f64>,
-    rate: Vec<f64>,
-    past: Vec<[f64; 2]>,
-}
-
-impl LocalHistory {
-    #[inline(always)]
-    fn new<I: Instructions>(
-        rows: &[Vec<Block>],
-        before: &[Block],
-        q: &[Block],
-        v: &[Block],
+impl<I: Instructions, B: Count> Contact<I, B> {
+    fn new<L: Law>(
+        law: &L,
+        problem: &Problem<L>,
+        before: &[f64],
+        Coefficients { own, past, gain }: &Coefficients,
         dt: f64,
     ) -> Self {
-        let mut history = Self {
-            now: Vec::with_capacity(rows.len()),
-            rate: Vec::with_capacity(rows.len()),
-            past: Vec::with_capacity(rows.len()),
-        };
-        for row in rows {
-            let (now, rate) = (dot::<I>(row, q), dot::<I>(row, v));
-            let previous = dot::<I>(row, before);
+        let (now, rate) = (
+            project(law, &problem.displacement),
+            project(law, &problem.velocity),
+        );
+        let previous = project(law, before);
+        let zero = vec![0.0; gain.len()];
+        let row = |c: usize| law.rows().get(c).unwrap_or(&zero);
+        let times =
+            |factor: &[f64]| std::array::from_fn(|c| modal::<I, B>(&weighted(row(c), factor)));
+        Self {
+            own: times(own),
+            past: times(past),
+            load: project(law, &weighted(problem.forcing.forces(), gain)),
+            pushes: times(gain),
+            now,
+            rate,
+            previous,
             // Such that the difference at the start gives the initial velocity.
-            let older = 2.0 * dt * rate - 3.0 * now + 4.0 * previous;
-            history.now.push(now);
-            history.rate.push(rate);
-            history.past.push([previous, older]);
+            older: std::array::from_fn(|c| 2.0 * dt * rate[c] - 3.0 * now[c] + 4.0 * previous[c]),
         }
-        history
+    }
+
+    /// The next position of a coordinate if no law pushed.
+    #[inline(always)]
+    fn free(&self, c: usize, q: &[Lanes<I>], before: &[Lanes<I>]) -> f64 {
+        let mut total = Lanes::<I>::of(0.0);
+        for (past, before) in self.past[c].as_ref().iter().zip(before) {
+            total += *past * *before;
+        }
+        for (own, q) in self.own[c].as_ref().iter().zip(q) {
+            total += *own * *q;
+        }
+        total.total() + self.load[c]
     }
 
     /// Goes one step on; the rate is `(3 x[n] - 4 x[n-1] + x[n-2]) / (2 dt)`.
     #[inline(always)]
-    fn push(&mut self, row: usize, next: f64, dt: f64) {
-        self.past[row] = [self.now[row], self.past[row][0]];
-        self.now[row] = next;
-        let [previous, older] = self.past[row];
-        self.rate[row] = (3.0 * next - 4.0 * previous + older) * (0.5 / dt);
+    fn push(&mut self, c: usize, next: f64, dt: f64) {
+        (self.older[c], self.previous[c]) = (self.previous[c], self.now[c]);
+        self.now[c] = next;
+        self.rate[c] = (3.0 * next - 4.0 * self.previous[c] + self.older[c]) * (0.5 / dt);
     }
 }
 

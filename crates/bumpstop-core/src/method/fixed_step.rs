@@ -1,10 +1,11 @@
 //! What the explicit fixed-step schemes share: their record, their check of the step, and the
 //! laws' forces on padded rows.
 
+use super::observe;
 use crate::error::{Error, Result};
 use crate::history::Event;
 use crate::law::{COORDINATES, Law, Local, State, project};
-use crate::number::{Block, LANES, blocks};
+use crate::number::{Block, Instructions, LANES, Lanes, Vectorised, blocks};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 
@@ -20,8 +21,11 @@ pub struct Step {
 /// The most memory that a record may take, in bytes.
 const LARGEST_RECORD: f64 = 4.0 * 1024.0 * 1024.0 * 1024.0;
 
-/// How often the observer is asked, in steps.
-pub(crate) const STEPS_BETWEEN_OBSERVATIONS: usize = 1024;
+/// How often the observer is asked, in steps; a multiple of [`STRETCH`].
+const STEPS_BETWEEN_OBSERVATIONS: usize = 1024;
+
+/// Steps for which room is made at once: few enough to stay in the nearest cache.
+const STRETCH: usize = 64;
 
 /// From which neighbouring displacements a scheme takes its velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +47,27 @@ pub struct StepRecord {
     stride: usize,
     rule: VelocityRule,
     displacement: Vec<Block>,
+    /// States of the laws during each step, at least one a step.
+    states: Vec<State>,
+    laws: usize,
+}
+
+/// Room for the results of some consecutive steps. A march writes into it without a call or a
+/// test, which would cost it its registers.
+pub(crate) struct Stretch<'a> {
+    /// Time of the first, in s, when the observer is to be asked.
+    start: Option<f64>,
+    /// Displacements after each step.
+    pub rows: &'a mut [Block],
+    /// States of the laws during each step.
+    pub states: &'a mut [State],
+}
+
+impl Stretch<'_> {
+    /// Asks the observer when it is time to.
+    pub(crate) fn observe(&self, observer: &mut dyn FnMut(f64) -> bool) -> Result<()> {
+        self.start.map_or(Ok(()), |time| observe(observer, time))
+    }
 }
 
 impl StepRecord {
@@ -73,6 +98,7 @@ impl StepRecord {
             });
         }
         let steps = count as usize;
+        let laws = problem.laws.len().max(1);
         Ok(Self {
             dt,
             steps,
@@ -80,16 +106,31 @@ impl StepRecord {
             stride,
             rule,
             displacement: Vec::with_capacity((steps + 3) * stride),
+            laws,
+            states: Vec::with_capacity((steps + 1) * laws),
         })
     }
 
-    /// Keeps the displacements of the next step; the first call gives
-    /// those one step before the start.
+    /// Keeps the displacements one step before the start, and at the start.
+    pub(crate) fn begin(&mut self, before: &[f64], start: &[f64]) {
+        self.displacement.extend(blocks(before));
+        self.displacement.extend(blocks(start));
+    }
+
+    /// Room for the next steps, until there are no more.
     #[inline(always)]
-    pub(crate) fn push(&mut self, displacement: &[Block]) {
-        for block in displacement {
-            self.displacement.push(*block);
-        }
+    pub(crate) fn next_stretch(&mut self) -> Option<Stretch<'_>> {
+        let first = self.states.len() / self.laws;
+        let last = (first + STRETCH).min(self.steps + 1);
+        let rows = self.displacement.len();
+        self.displacement
+            .resize((last + 2) * self.stride, [0.0; LANES]);
+        self.states.resize(last * self.laws, State(0));
+        (first < last).then(|| Stretch {
+            start: (first % STEPS_BETWEEN_OBSERVATIONS == 0).then_some(first as f64 * self.dt),
+            rows: &mut self.displacement[rows..],
+            states: &mut self.states[first * self.laws..],
+        })
     }
 
     fn row(&self, n: usize) -> &[f64] {
@@ -128,6 +169,34 @@ impl StepRecord {
         for (q, (a, b)) in displacement.iter_mut().zip(rows) {
             *q = a + part * (b - a);
         }
+    }
+
+    /// The switches of the laws, in order of time.
+    pub(crate) fn events<L: Law>(&self, problem: &Problem<L>) -> Vec<Event> {
+        let mut events = Vec::new();
+        for (index, law) in problem.laws.iter().enumerate() {
+            let position = project(law, &problem.displacement);
+            let mut before = law.sampled_state(&position, &project(law, &problem.velocity));
+            for (n, after) in self
+                .states
+                .chunks_exact(self.laws)
+                .map(|s| s[index])
+                .enumerate()
+            {
+                if after != before {
+                    events.push(Event {
+                        time: n as f64 * self.dt,
+                        law: index,
+                        guard: "step",
+                        before,
+                        after,
+                    });
+                    before = after;
+                }
+            }
+        }
+        events.sort_by(|a, b| a.time.total_cmp(&b.time));
+        events
     }
 
     /// Refuses a record whose motion left the range of numbers.
@@ -169,91 +238,156 @@ fn law_stiffness<L: Law>(law: &L) -> f64 {
         .sum()
 }
 
-/// The laws of a problem for an explicit scheme: rows padded to whole lanes, in one list, and
-/// what the laws did so far.
-pub(crate) struct LawForces<'a, L> {
-    laws: &'a [L],
-    /// The rows of all laws, one after the other.
-    pub rows: Vec<Vec<Block>>,
-    states: Vec<State>,
-    events: Vec<Event>,
+/// How many things of a kind a march has, so that the same text serves a number known when
+/// compiling, whose things live in registers, and any other.
+pub(crate) trait Count {
+    /// That many things.
+    type Of<T>: AsRef<[T]> + AsMut<[T]>;
+
+    /// Makes each of `count` things from its number.
+    fn make<T>(count: usize, each: impl FnMut(usize) -> T) -> Self::Of<T>;
 }
 
-impl<'a, L: Law> LawForces<'a, L> {
-    pub(crate) fn new(problem: &'a Problem<L>) -> Self {
-        let laws = &problem.laws;
-        let states = (laws.iter())
-            .map(|law| {
-                let position = project(law, &problem.displacement);
-                law.sampled_state(&position, &project(law, &problem.velocity))
+/// Just `N`.
+pub(crate) struct Fixed<const N: usize>;
+
+impl<const N: usize> Count for Fixed<N> {
+    type Of<T> = [T; N];
+    #[inline(always)]
+    fn make<T>(count: usize, each: impl FnMut(usize) -> T) -> [T; N] {
+        assert_eq!(count, N);
+        std::array::from_fn(each)
+    }
+}
+
+/// Any number.
+pub(crate) struct Any;
+
+impl Count for Any {
+    type Of<T> = Vec<T>;
+    #[inline(always)]
+    fn make<T>(count: usize, each: impl FnMut(usize) -> T) -> Vec<T> {
+        (0..count).map(each).collect()
+    }
+}
+
+/// One number a mode, in whole lanes; `B` counts the blocks.
+pub(crate) type Modal<I, B> = <B as Count>::Of<Lanes<I>>;
+
+/// Eight numbers a block; the last block is filled with zeros.
+#[inline(always)]
+pub(crate) fn modal<I: Instructions, B: Count>(numbers: &[f64]) -> Modal<I, B> {
+    let blocks = blocks(numbers);
+    B::make(blocks.len(), |b| Lanes::of_block(&blocks[b]))
+}
+
+/// A march through time, compiled anew for the usual sizes of problems.
+pub(crate) trait March<L: Law> {
+    /// The march for `B` blocks of modes and `A` laws.
+    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()>;
+}
+
+/// Chooses the counts of a march.
+pub(crate) struct Sized<'a, L, M> {
+    pub problem: &'a Problem<L>,
+    pub march: M,
+}
+
+impl<L: Law, M: March<L>> Vectorised for Sized<'_, L, M> {
+    type Output = Result<()>;
+    #[inline(always)]
+    fn run<I: Instructions>(self) -> Result<()> {
+        let blocks = self.problem.system.modes().div_ceil(LANES);
+        match (blocks, self.problem.laws.len()) {
+            (1, 1) => self.march.march::<I, Fixed<1>, Fixed<1>>(),
+            (2, 1) => self.march.march::<I, Fixed<2>, Fixed<1>>(),
+            _ => self.march.march::<I, Any, Any>(),
+        }
+    }
+}
+
+/// How forces along one law's coordinates move another's: `sum_i a_i gain_i b_i` for its rows a
+/// and b, zero beyond them.
+pub(crate) type Coupling = [Local<f64>; COORDINATES];
+
+/// How the second law's forces move the first's coordinates.
+pub(crate) fn coupling<L: Law>(moved: &L, pushing: &L, gain: &[f64]) -> Coupling {
+    let mut coupling = [[0.0; COORDINATES]; COORDINATES];
+    for (to, a) in coupling.iter_mut().zip(moved.rows()) {
+        for (to, b) in to.iter_mut().zip(pushing.rows()) {
+            *to = a.iter().zip(b).zip(gain).map(|((a, b), g)| a * g * b).sum();
+        }
+    }
+    coupling
+}
+
+/// How all forces together move one coordinate.
+#[inline(always)]
+pub(crate) fn pushed<L: Law>(
+    laws: &[&L],
+    couplings: &[Coupling],
+    coordinate: usize,
+    forces: &[Local<f64>],
+) -> f64 {
+    let mut total = 0.0;
+    for ((law, force), coupling) in laws.iter().zip(forces).zip(couplings) {
+        for c in 0..law.rows().len() {
+            total += coupling[coordinate][c] * force[c];
+        }
+    }
+    total
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forcing::Forcing;
+    use crate::history::{Derivative, History};
+    use crate::law::Stop;
+    use crate::method::{Method, simulate};
+    use std::sync::Arc;
+
+    /// A bouncing structure of `modes` modes, all but three of them at rest, before `laws` stops,
+    /// all but one of them out of reach.
+    fn run(method: fn(Step) -> Method, modes: usize, laws: usize) -> History<Stop> {
+        let moving = |i: usize, value: f64| if i < 3 { value } else { 0.0 };
+        let each = |f: &dyn Fn(usize) -> f64| (0..modes).map(f).collect::<Vec<f64>>();
+        let omega2 = each(&|i| 1e3 * (i * i) as f64);
+        let system = ModalSystem::new(omega2, each(&|i| 0.2 * i as f64)).unwrap();
+        let row = each(&|i| moving(i, 1.0 - 0.3 * i as f64));
+        let stops = (0..laws)
+            .map(|n| {
+                let gap = if n == 0 { 1e-3 } else { 1e3 };
+                Stop::new(row.clone(), gap, 2e4, 3.0).unwrap()
             })
             .collect();
-        let all = laws.iter().flat_map(|law| law.rows());
-        Self {
-            laws,
-            rows: all.map(|row| blocks(row)).collect(),
-            states,
-            events: Vec::new(),
+        let forcing = Forcing::constant(each(&|i| moving(i, -2.0))).unwrap();
+        let (rest, velocity) = (vec![0.0; modes], each(&|i| moving(i, -0.5)));
+        let problem = Problem::new(system, stops, forcing, rest, velocity, 0.2).unwrap();
+        let step = Step {
+            dt: 1e-4,
+            beyond_stability_limit: false,
+        };
+        simulate(&Arc::new(problem), method(step), &mut |_| true).unwrap()
+    }
+
+    #[test]
+    fn counts_known_when_compiling_give_the_bits_of_any_other() {
+        let times: Vec<f64> = (0..=40).map(|n| f64::from(n) * 5e-3).collect();
+        let tip = |history: &History<Stop>| -> Vec<f64> {
+            let modes = history.problem().system.modes();
+            let motion = history.motion(&times, Derivative::Displacement).unwrap();
+            let moving = motion.chunks(modes).flat_map(|row| &row[..3]);
+            moving.copied().collect()
+        };
+        for method in [Method::CentralDifference, Method::SymplecticEuler] {
+            let known = run(method, 8, 1);
+            assert!(known.events().len() > 2);
+            for (modes, laws) in [(16, 1), (24, 1), (8, 2)] {
+                let other = run(method, modes, laws);
+                assert_eq!(tip(&known), tip(&other));
+                assert_eq!(known.events(), other.events());
+            }
         }
     }
-
-    /// What a law at local positions and velocities (one a row) exerts along each row.
-    #[inline(always)]
-    pub(crate) fn evaluate(
-        &mut self,
-        time: f64,
-        positions: &[f64],
-        velocities: &[f64],
-        forces: &mut [f64],
-    ) {
-        let mut first = 0;
-        for (index, law) in self.laws.iter().enumerate() {
-            let rows = first..first + law.rows().len();
-            let position = local(&positions[rows.clone()]);
-            let velocity = local(&velocities[rows.clone()]);
-            let state = law.sampled_state(&position, &velocity);
-            if state != self.states[index] {
-                self.events.push(Event {
-                    time,
-                    law: index,
-                    guard: "step",
-                    before: self.states[index],
-                    after: state,
-                });
-                self.states[index] = state;
-            }
-            let force = law.force(state, &position, &velocity);
-            for (to, from) in forces[rows.clone()].iter_mut().zip(force) {
-                *to = from;
-            }
-            first = rows.end;
-        }
-    }
-
-    /// The events seen.
-    pub(crate) fn into_events(self) -> Vec<Event> {
-        self.events
-    }
-}
-
-#[inline(always)]
-fn local(values: &[f64]) -> Local<f64> {
-    let mut local = [0.0; COORDINATES];
-    for (to, from) in local.iter_mut().zip(values) {
-        *to = *from;
-    }
-    local
-}
-
-/// Products of rows: `sum_i a_i weight_i b_i` for all pairs, row by row.
-pub(crate) fn row_products(rows: &[Vec<Block>], weight: &[Block]) -> Vec<f64> {
-    let product = |a: &[Block], b: &[Block]| -> f64 {
-        let pairs = a.as_flattened().iter().zip(b.as_flattened());
-        pairs
-            .zip(weight.as_flattened())
-            .map(|((a, b), w)| a * w * b)
-            .sum()
-    };
-    let all = rows.iter().flat_map(|a| rows.iter().map(move |b| (a, b)));
-    all.map(|(a, b)| product(a, b)).collect()
 }

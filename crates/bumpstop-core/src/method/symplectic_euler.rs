@@ -5,15 +5,15 @@
 //! amplification matrix. Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical
 //! Integration, 2nd edition, 2006, section I.1.2.
 
+use super::Observer;
 use super::fixed_step::{
-    LawForces, STEPS_BETWEEN_OBSERVATIONS, Step, StepRecord, VelocityRule, check_step,
-    highest_frequency, row_products,
+    Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, coupling,
+    highest_frequency, modal, pushed,
 };
-use super::{Observer, observe};
 use crate::error::Result;
 use crate::history::History;
-use crate::law::Law;
-use crate::number::{Instructions, LANES, Lanes, Number, Vectorised, blocks, dispatch, dot};
+use crate::law::{COORDINATES, Law, Local, project};
+use crate::number::{Instructions, Lanes, Number, dispatch};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 use std::sync::Arc;
@@ -48,89 +48,139 @@ pub fn simulate<L: Law>(
 ) -> Result<History<L>> {
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Backward)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
-    let mut laws = LawForces::new(problem);
-    dispatch(March {
+    let march = SymplecticEuler {
         problem,
         record: &mut record,
-        laws: &mut laws,
         observer,
-    })?;
+    };
+    dispatch(Sized { problem, march })?;
     record.check()?;
-    Ok(History::of_steps(problem, NAME, record, laws.into_events()))
+    let events = record.events(problem);
+    Ok(History::of_steps(problem, NAME, record, events))
 }
 
-struct March<'a, 'b, 'o, L> {
+struct SymplecticEuler<'a, 'o, L> {
     problem: &'a Problem<L>,
     record: &'a mut StepRecord,
-    laws: &'a mut LawForces<'b, L>,
     observer: Observer<'o>,
 }
 
-impl<L: Law> Vectorised for March<'_, '_, '_, L> {
-    type Output = Result<()>;
+impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
+    /// The laws do not wait for the modes of their own step: local velocities follow from the
+    /// modes of the step before and the forces alone,
+    /// `x' = (row - dt row c) . v - (dt row w2) . q + dt row . (p + row f)`.
     #[inline(always)]
-    fn run<I: Instructions>(self) -> Result<()> {
-        march::<I, L>(self.problem, self.record, self.laws, self.observer)
+    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()> {
+        let Self {
+            problem,
+            record,
+            observer,
+        } = self;
+        let dt = record.dt;
+        let step = Lanes::<I>::of(dt);
+        let omega2 = modal::<I, B>(problem.system.omega2());
+        let damping = modal::<I, B>(problem.system.damping());
+        let load = modal::<I, B>(problem.forcing.forces());
+        let gain = vec![dt; problem.system.modes()];
+        let laws = A::make(problem.laws.len(), |i| &problem.laws[i]);
+        let laws = laws.as_ref();
+        let couplings = A::make(laws.len(), |i| {
+            A::make(laws.len(), |j| coupling(laws[i], laws[j], &gain))
+        });
+        let mut contacts = A::make(laws.len(), |i| Contact::<I, B>::new(laws[i], problem, dt));
+        let contacts = contacts.as_mut();
+        let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
+        let forces = forces.as_mut();
+        let mut q = modal::<I, B>(&problem.displacement);
+        let mut v = modal::<I, B>(&problem.velocity);
+        let both = problem.displacement.iter().zip(&problem.velocity);
+        let before: Vec<f64> = both.map(|(q, v)| q - dt * v).collect();
+        record.begin(&before, &problem.displacement);
+        let (blocks, states) = (q.as_ref().len(), laws.len().max(1));
+        while let Some(stretch) = record.next_stretch() {
+            stretch.observe(observer)?;
+            let rows = stretch.rows.chunks_exact_mut(blocks);
+            for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
+                for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
+                    states[i] = law.sampled_state(&contact.position, &contact.velocity);
+                    forces[i] = law.force(states[i], &contact.position, &contact.velocity);
+                }
+                let coupled = contacts.iter_mut().zip(couplings.as_ref());
+                for (law, (contact, couplings)) in laws.iter().zip(coupled) {
+                    for c in 0..law.rows().len() {
+                        let free = contact.free(c, q.as_ref(), v.as_ref());
+                        contact.velocity[c] = free + pushed(laws, couplings.as_ref(), c, forces);
+                        contact.position[c] += dt * contact.velocity[c];
+                    }
+                }
+                let known = omega2.as_ref().iter().zip(damping.as_ref());
+                for ((v, q), ((w2, c), p)) in
+                    (v.as_mut().iter_mut().zip(q.as_ref())).zip(known.zip(load.as_ref()))
+                {
+                    *v += (*p - (*w2 * *q + *c * *v)) * step;
+                }
+                for ((law, contact), force) in laws.iter().zip(contacts.iter()).zip(&*forces) {
+                    for c in 0..law.rows().len() {
+                        let impulse = Lanes::<I>::of(dt * force[c]);
+                        for (v, row) in v.as_mut().iter_mut().zip(contact.rows[c].as_ref()) {
+                            *v += *row * impulse;
+                        }
+                    }
+                }
+                for (q, v) in q.as_mut().iter_mut().zip(v.as_ref()) {
+                    *q += *v * step;
+                }
+                for (block, q) in row.iter_mut().zip(q.as_ref()) {
+                    q.to_block(block);
+                }
+            }
+        }
+        Ok(())
     }
 }
 
-/// The structure's part of a step does not wait for the laws: local positions and velocities
-/// follow from it and the forces alone, `x' = free + dt^2 (rows . rows) f`, so that the forces of
-/// the next step are known before the modes are.
-#[inline(always)]
-fn march<I: Instructions, L: Law>(
-    problem: &Problem<L>,
-    record: &mut StepRecord,
-    laws: &mut LawForces<'_, L>,
-    observer: Observer<'_>,
-) -> Result<()> {
-    let dt = record.dt;
-    let step = Lanes::<I>::of(dt);
-    let omega2 = blocks(problem.system.omega2());
-    let damping = blocks(problem.system.damping());
-    let constant = blocks(problem.forcing.forces());
-    let mut q = blocks(&problem.displacement);
-    let mut v = blocks(&problem.velocity);
-    let mut free = v.clone();
-    let rows = laws.rows.clone();
-    let coupling = row_products(&rows, &vec![[1.0; LANES]; v.len()]);
-    let mut forces = vec![0.0; rows.len()];
-    let mut positions: Vec<f64> = rows.iter().map(|row| dot::<I>(row, &q)).collect();
-    let mut velocities: Vec<f64> = rows.iter().map(|row| dot::<I>(row, &v)).collect();
-    let both = problem.displacement.iter().zip(&problem.velocity);
-    let before: Vec<f64> = both.map(|(q, v)| q - dt * v).collect();
-    record.push(&blocks(&before));
-    record.push(&q);
-    for n in 0..=record.steps {
-        if n % STEPS_BETWEEN_OBSERVATIONS == 0 {
-            observe(observer, n as f64 * dt)?;
+/// A law's rows times the scheme's coefficients, and its local motion.
+struct Contact<I: Instructions, B: Count> {
+    rows: Local<Modal<I, B>>,
+    of_position: Local<Modal<I, B>>,
+    of_velocity: Local<Modal<I, B>>,
+    /// What the loads add to the local velocities in a step.
+    load: Local<f64>,
+    position: Local<f64>,
+    velocity: Local<f64>,
+}
+
+impl<I: Instructions, B: Count> Contact<I, B> {
+    fn new<L: Law>(law: &L, problem: &Problem<L>, dt: f64) -> Self {
+        let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
+        let zero = vec![0.0; omega2.len()];
+        let row = |c: usize| law.rows().get(c).unwrap_or(&zero);
+        let times = |c: usize, factor: &dyn Fn(usize) -> f64| {
+            let products: Vec<f64> = (row(c).iter().enumerate())
+                .map(|(i, r)| r * factor(i))
+                .collect();
+            modal::<I, B>(&products)
+        };
+        Self {
+            rows: std::array::from_fn(|c| modal::<I, B>(row(c))),
+            of_position: std::array::from_fn(|c| times(c, &|i| -dt * omega2[i])),
+            of_velocity: std::array::from_fn(|c| times(c, &|i| 1.0 - dt * damping[i])),
+            load: project(law, problem.forcing.forces()).map(|p| dt * p),
+            position: project(law, &problem.displacement),
+            velocity: project(law, &problem.velocity),
         }
-        laws.evaluate(n as f64 * dt, &positions, &velocities, &mut forces);
-        let structure = omega2.iter().zip(&damping).zip(&constant);
-        for (((free, q), v), ((w2, c), p)) in free.iter_mut().zip(&q).zip(&v).zip(structure) {
-            let v = Lanes::<I>::of_block(v);
-            let inner = Lanes::of_block(w2) * Lanes::of_block(q) + Lanes::of_block(c) * v;
-            (v + (Lanes::of_block(p) - inner) * step).to_block(free);
-        }
-        for (r, row) in rows.iter().enumerate() {
-            let mut pushed = 0.0;
-            for (product, force) in coupling[r * rows.len()..].iter().zip(&forces) {
-                pushed += product * force;
-            }
-            velocities[r] = dot::<I>(row, &free) + dt * pushed;
-            positions[r] += dt * velocities[r];
-        }
-        for (row, force) in rows.iter().zip(&forces) {
-            let impulse = Lanes::<I>::of(dt * force);
-            for (free, row) in free.iter_mut().zip(row) {
-                (Lanes::of_block(free) + Lanes::of_block(row) * impulse).to_block(free);
-            }
-        }
-        std::mem::swap(&mut v, &mut free);
-        for (q, v) in q.iter_mut().zip(&v) {
-            (Lanes::<I>::of_block(q) + Lanes::of_block(v) * step).to_block(q);
-        }
-        record.push(&q);
     }
-    Ok(())
+
+    /// The next velocity of a coordinate if no law pushed.
+    #[inline(always)]
+    fn free(&self, c: usize, q: &[Lanes<I>], v: &[Lanes<I>]) -> f64 {
+        let mut total = Lanes::<I>::of(0.0);
+        for (factor, v) in self.of_velocity[c].as_ref().iter().zip(v) {
+            total += *factor * *v;
+        }
+        for (factor, q) in self.of_position[c].as_ref().iter().zip(q) {
+            total += *factor * *q;
+        }
+        total.total() + self.load[c]
+    }
 }
