@@ -131,10 +131,10 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
                     (*before, *q) = (*q, next);
                 }
                 for ((law, contact), force) in laws.iter().zip(contacts.iter()).zip(&*forces) {
-                    for c in 0..law.rows().len() {
-                        let force = Lanes::<I>::of(force[c]);
-                        let pushes = contact.pushes[c].as_ref();
-                        for (q, push) in q.as_mut().iter_mut().zip(pushes) {
+                    let along = contact.pushes.iter().zip(force).take(law.rows().len());
+                    for (pushes, force) in along {
+                        let force = Lanes::<I>::of(*force);
+                        for (q, push) in q.as_mut().iter_mut().zip(pushes.as_ref()) {
                             *q += *push * force;
                         }
                     }

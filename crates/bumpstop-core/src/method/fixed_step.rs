@@ -127,7 +127,9 @@ impl StepRecord {
             .resize((last + 2) * self.stride, [0.0; LANES]);
         self.states.resize(last * self.laws, State(0));
         (first < last).then(|| Stretch {
-            start: (first % STEPS_BETWEEN_OBSERVATIONS == 0).then_some(first as f64 * self.dt),
+            start: first
+                .is_multiple_of(STEPS_BETWEEN_OBSERVATIONS)
+                .then_some(first as f64 * self.dt),
             rows: &mut self.displacement[rows..],
             states: &mut self.states[first * self.laws..],
         })

@@ -120,9 +120,10 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
                     *v += (*p - (*w2 * *q + *c * *v)) * step;
                 }
                 for ((law, contact), force) in laws.iter().zip(contacts.iter()).zip(&*forces) {
-                    for c in 0..law.rows().len() {
-                        let impulse = Lanes::<I>::of(dt * force[c]);
-                        for (v, row) in v.as_mut().iter_mut().zip(contact.rows[c].as_ref()) {
+                    let along = contact.rows.iter().zip(force).take(law.rows().len());
+                    for (row, force) in along {
+                        let impulse = Lanes::<I>::of(dt * force);
+                        for (v, row) in v.as_mut().iter_mut().zip(row.as_ref()) {
                             *v += *row * impulse;
                         }
                     }
