@@ -36,6 +36,13 @@ def test_what_is_asked_for_is_taken() -> None:
     assert response.solve_seconds > 0.0
 
 
+def test_reading_on_does_not_change_the_time_that_a_run_took() -> None:
+    response = bs.simulate(problem())
+    taken = response.solve_seconds
+    response.sample("displacement", "P", "dx")
+    assert response.solve_seconds == taken
+
+
 @pytest.mark.parametrize("method", ["symplectic_euler", "central_difference"])
 def test_fixed_steps_approach_the_exact_solution(method: str) -> None:
     exact = bs.simulate(problem(), method="exact").sample("displacement", "P", "dx")
@@ -75,6 +82,29 @@ def test_the_stability_limit_is_that_of_the_closed_stop() -> None:
     bs.simulate(problem(), method="central_difference", dt=0.9 * limit)
     with pytest.raises(bs.InputError, match="stability limit"):
         bs.simulate(problem(), method="central_difference", dt=1.05 * limit)
+
+
+def damped_spectral_radius(omega: float, damping: float, dt: float) -> float:
+    """Return that of central difference with the rate by the backward difference, from its text."""
+    h, e = (omega * dt) ** 2, damping * dt
+    return float(np.abs(np.roots([1.0, -2.0 + h + 1.5 * e, 1.0 - 2.0 * e, 0.5 * e])).max())
+
+
+@pytest.mark.parametrize("damping", [0.0, 1.0, 120.0, 400.0, 2000.0])
+def test_a_damper_in_the_stop_lowers_the_limit_of_central_difference(damping: float) -> None:
+    """One kilogram held on its stop by 100 N: found stable and unstable beside the limit."""
+    mass = bs.ModalBasis.from_modes(frequency=[0.0], damping=[0.0], shapes={("P", "dx"): [1.0]})
+    stop = bs.Stop("wall", node="P", normal=(1, 0, 0), stiffness=1e4, damping=damping)
+    press = bs.NodalForce("press", node="P", force=(-100.0, 0, 0))
+    start = bs.ModalState(displacement=[-0.011], velocity=[0.0])
+    pressed = bs.Problem(mass, laws=[stop], loads=[press], initial=start, duration=2.0)
+    limit = 2.0 / (damping + math.hypot(damping, 100.0))
+    assert damped_spectral_radius(100.0, damping, 0.999 * limit) <= 1.0 + 1e-12
+    assert damped_spectral_radius(100.0, damping, 1.001 * limit) > 1.0
+    held = bs.simulate(pressed, method="central_difference", dt=0.95 * limit)
+    assert np.abs(held.sample("displacement", "P", "dx")).max() < 0.03
+    with pytest.raises(bs.InputError, match="stability limit"):
+        bs.simulate(pressed, method="central_difference", dt=1.01 * limit)
 
 
 def test_an_unstable_step_is_taken_when_asked_for_by_name() -> None:

@@ -229,14 +229,23 @@ pub(crate) fn check_step(method: &'static str, step: Step, limit: f64) -> Result
 /// Highest angular frequency with every law in its stiffest state, in rad/s, from above:
 /// the largest eigenvalue of a sum is at most the sum of the largest eigenvalues.
 pub(crate) fn highest_frequency<L: Law>(system: &ModalSystem, laws: &[L]) -> f64 {
-    let laws_stiffness: f64 = laws.iter().map(law_stiffness).sum();
+    let laws_stiffness: f64 = (laws.iter())
+        .map(|law| on_modes(law, &law.stiffest().stiffness))
+        .sum();
     (system.highest_frequency().powi(2) + laws_stiffness).sqrt()
 }
 
-fn law_stiffness<L: Law>(law: &L) -> f64 {
-    let piece = law.stiffest();
-    (law.rows().iter().zip(piece.stiffness).enumerate())
-        .map(|(i, (row, stiffness))| stiffness[i] * row.iter().map(|r| r * r).sum::<f64>())
+/// Damping that laws in their stiffest states add to any motion, in rad/s, from above.
+pub(crate) fn laws_damping<L: Law>(laws: &[L]) -> f64 {
+    (laws.iter())
+        .map(|law| on_modes(law, &law.stiffest().damping))
+        .sum()
+}
+
+/// A bound of the largest eigenvalue of a law's diagonal local matrix on the modes.
+fn on_modes<L: Law>(law: &L, matrix: &[Local<f64>; COORDINATES]) -> f64 {
+    (law.rows().iter().zip(matrix).enumerate())
+        .map(|(i, (row, entries))| entries[i] * row.iter().map(|r| r * r).sum::<f64>())
         .sum()
 }
 

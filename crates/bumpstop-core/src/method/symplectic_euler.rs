@@ -8,7 +8,7 @@
 use super::Observer;
 use super::fixed_step::{
     Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, coupling,
-    highest_frequency, modal, pushed,
+    highest_frequency, laws_damping, modal, pushed,
 };
 use crate::error::Result;
 use crate::history::History;
@@ -25,16 +25,8 @@ pub const NAME: &str = "symplectic_euler";
 pub fn stability_limit<L: Law>(system: &ModalSystem, laws: &[L]) -> f64 {
     let omega = highest_frequency(system, laws);
     let modal = system.damping().iter().fold(0.0f64, |m, c| m.max(*c));
-    let damping = modal + laws.iter().map(law_damping).sum::<f64>();
-    let xi = damping / (2.0 * omega);
-    2.0 * ((1.0 + xi * xi).sqrt() - xi) / omega
-}
-
-fn law_damping<L: Law>(law: &L) -> f64 {
-    let piece = law.stiffest();
-    (law.rows().iter().zip(piece.damping).enumerate())
-        .map(|(i, (row, damping))| damping[i] * row.iter().map(|r| r * r).sum::<f64>())
-        .sum()
+    let half = 0.5 * (modal + laws_damping(laws));
+    2.0 / (half + half.hypot(omega))
 }
 
 /// Runs a problem.
