@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -87,9 +88,12 @@ class Response:
         """How many times a law switched."""
         return self.history.event_count
 
-    @property
+    @cached_property
     def solve_seconds(self) -> float:
-        """Time in s spent in the core so far: integration and everything read since."""
+        """Time in s spent in the core: integration and all read until this was first asked for.
+
+        Kept from then on, so that a run's table, files and report tell one number.
+        """
         return self.history.seconds
 
     @property
