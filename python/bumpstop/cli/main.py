@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import os
 import sys
@@ -33,12 +34,16 @@ def run_command_line(arguments: Sequence[str] | None) -> int:
         return _done(get_command(app).main(words, prog_name="bumpstop", standalone_mode=False))
     except BrokenPipeError:
         # Whoever read our output has seen enough; leave nothing for Python to flush at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_standard_output()
         return 0
     except Exception as error:
         if debug:
             traceback.print_exc()
         return _failed(error)
+
+
+def _drop_standard_output() -> None:
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _done(command: Job | int) -> int:
@@ -55,6 +60,10 @@ def _failed(error: Exception) -> int:
         return error.exit_status
     if isinstance(error, _UsageError):
         _say(f"error: {error.format_message().rstrip('.')}; see 'bumpstop --help'")
+        return WRONG_INPUT
+    if isinstance(error, OSError) and error.errno == errno.ENOSPC:
+        _drop_standard_output()
+        _say("error: no space left where the output goes; make room or write elsewhere")
         return WRONG_INPUT
     if isinstance(error, MemoryError):
         _say("error: not enough memory; take fewer samples, elements or modes")
