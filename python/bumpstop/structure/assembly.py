@@ -25,13 +25,19 @@ class Block:
     ----------
     dofs
         Numbers of the dofs of each element, (elements, n).
-    stiffness, mass
-        Symmetric matrices of one element, (n, n).
+    stiffness, mass, damping
+        Symmetric matrices of one element, (n, n); None for zero.
+    gyroscopic, circulatory
+        Skew-symmetric matrices of one element, (n, n), that multiply velocities and
+        displacements; None for zero.
     """
 
     dofs: IndexArray
-    stiffness: FloatArray
-    mass: FloatArray
+    stiffness: FloatArray | None = None
+    mass: FloatArray | None = None
+    damping: FloatArray | None = None
+    gyroscopic: FloatArray | None = None
+    circulatory: FloatArray | None = None
 
 
 class Part(Protocol):
@@ -41,9 +47,9 @@ class Part(Protocol):
         """Return the part's matrices on the dofs of ``mesh``."""
 
 
-def assembled(pieces: Iterable[tuple[IndexArray, FloatArray]], size: int) -> SparseMatrix:
+def assembled(pieces: Iterable[tuple[IndexArray, FloatArray | None]], size: int) -> SparseMatrix:
     """Add up element matrices (n, n), each at all places of its dofs (elements, n)."""
-    triplets = [_triplets(dofs, matrix) for dofs, matrix in pieces]
+    triplets = [_triplets(dofs, matrix) for dofs, matrix in pieces if matrix is not None]
     if not triplets:
         triplets = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp), np.zeros(0))]
     rows, columns, values = (np.concatenate(column) for column in zip(*triplets, strict=True))

@@ -46,6 +46,5 @@ class PointMass:
         node = mesh.node(self.node, f"masses.{self.name}.node")
         return Block(
             dofs=mesh.dofs_of(np.array([node]))[:, :3],
-            stiffness=np.zeros((3, 3)),
             mass=self.mass * np.eye(3),
         )

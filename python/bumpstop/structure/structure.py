@@ -30,7 +30,9 @@ class Structure:
     """A linear structure in space.
 
     Matrices and fields have six rows a mesh node, those of supports included: ``dofs`` names
-    them, ``free`` numbers those that can move.
+    them, ``free`` numbers those that can move. The structure moves as
+    M u'' + (C + G) u' + (K + N) u = f, with the matrices ``mass``, ``damping``,
+    ``gyroscopic``, ``stiffness`` and ``circulatory``.
 
     Parameters
     ----------
@@ -98,15 +100,28 @@ class Structure:
 
     @cached_property
     def stiffness(self) -> SparseMatrix:
-        """Stiffness matrix on all dofs, supports not yet applied; N/m, N and N m."""
-        pieces = ((block.dofs, block.stiffness) for block in self._blocks)
-        return assembled(pieces, len(self.dofs))
+        """Symmetric stiffness matrix on all dofs, supports not yet applied; N/m, N and N m."""
+        return self._assembled("stiffness")
 
     @cached_property
     def mass(self) -> SparseMatrix:
-        """Consistent mass matrix on all dofs, supports not yet applied; kg, kg m and kg m2."""
-        pieces = ((block.dofs, block.mass) for block in self._blocks)
-        return assembled(pieces, len(self.dofs))
+        """Symmetric mass matrix on all dofs, supports not yet applied; kg, kg m and kg m2."""
+        return self._assembled("mass")
+
+    @cached_property
+    def damping(self) -> SparseMatrix:
+        """Symmetric damping matrix of the parts, on all dofs; N s/m, N s and N m s."""
+        return self._assembled("damping")
+
+    @cached_property
+    def gyroscopic(self) -> SparseMatrix:
+        """Skew-symmetric gyroscopic matrix of the parts that spin, on all dofs; as damping."""
+        return self._assembled("gyroscopic")
+
+    @cached_property
+    def circulatory(self) -> SparseMatrix:
+        """Skew-symmetric part of the stiffness of bearings, on all dofs; as stiffness."""
+        return self._assembled("circulatory")
 
     def displacement_form(self, node: str, dof: str) -> LinearForm:
         """Return one dof of a node, or of a point along a beam, as a form of all dofs.
@@ -180,6 +195,10 @@ class Structure:
     def _blocks(self) -> list[Block]:
         parts: list[Part] = [*self.beams, *self.masses]
         return [part.block(self.mesh) for part in parts]
+
+    def _assembled(self, kind: str) -> SparseMatrix:
+        pieces = ((block.dofs, getattr(block, kind)) for block in self._blocks)
+        return assembled(pieces, len(self.dofs))
 
     def _beam_point(self, node: str) -> tuple[Beam, float] | None:
         """Return the beam and the distance along it that a point's name tells."""

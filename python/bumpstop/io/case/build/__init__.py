@@ -1,0 +1,66 @@
+"""From checked tables to the objects that are simulated: one file a part of the case."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bumpstop.io.case.build.basis import built_basis
+from bumpstop.io.case.build.gauges import built_gauges
+from bumpstop.io.case.build.initial import built_initial
+from bumpstop.io.case.build.laws import built_laws
+from bumpstop.io.case.build.loads import built_loads
+from bumpstop.io.case.keys import keyed
+from bumpstop.problem import Problem
+
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["Builder"]
+
+_STRUCTURE = ("nodes", "materials", "sections", "beams", "masses", "supports", "basis")
+"""Tables that the modes are made of."""
+
+
+class Builder:
+    """Builds the problems of one case; variants of the same structure share its modes."""
+
+    def __init__(self) -> None:
+        self._bases: list[tuple[CaseFile, ModalBasis]] = []
+
+    def problem(self, case: CaseFile) -> Problem:
+        """Return the problem that the tables describe.
+
+        Raises
+        ------
+        InputError
+            If something named is not there or numbers do not fit together; its key is that
+            of the file.
+        """
+        basis = self._basis(case)
+        initial = built_initial(case.initial)
+        with keyed(renamed=_renamed(case)):
+            return Problem(
+                basis,
+                laws=built_laws(case),
+                loads=built_loads(case),
+                initial=initial,
+                duration=case.run.duration,
+                sample=case.run.sample,
+                gauges=built_gauges(case),
+                outputs=[(output.node, output.dof) for output in case.outputs],
+            )
+
+    def _basis(self, case: CaseFile) -> ModalBasis:
+        for known, basis in self._bases:
+            if all(getattr(known, table) == getattr(case, table) for table in _STRUCTURE):
+                return basis
+        basis = built_basis(case)
+        self._bases.append((case, basis))
+        return basis
+
+
+def _renamed(case: CaseFile) -> dict[str, str]:
+    """Return where in the file the arguments of a problem stand."""
+    state = "initial.rotation" if case.initial and case.initial.rotation else "initial.modal"
+    return {"duration": "run.duration", "sample": "run.sample", "initial": state}

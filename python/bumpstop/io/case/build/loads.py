@@ -1,0 +1,27 @@
+"""Loads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bumpstop.io.case.keys import keyed
+from bumpstop.loads import Gravity, NodalForce
+
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.io.case.tables.loads import LoadTable
+    from bumpstop.problem import Load
+
+__all__ = ["built_loads"]
+
+
+def built_loads(case: CaseFile) -> list[Load]:
+    """Return the loads that the tables describe."""
+    return [_load(name, table) for name, table in case.loads.items()]
+
+
+def _load(name: str, table: LoadTable) -> Load:
+    with keyed(f"loads.{name}"):
+        if table.type == "gravity":
+            return Gravity(name, acceleration=table.acceleration)
+        return NodalForce(name, node=table.node, force=table.force, moment=table.moment)
