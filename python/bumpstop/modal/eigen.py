@@ -7,11 +7,10 @@ import numpy as np
 from bumpstop._core import CoreError, symmetric_modes
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError, InputError
-from bumpstop.modal.echelon import independent_columns, null_space
-from bumpstop.modal.graph import components
-from bumpstop.modal.rigid import rigid_shapes
+from bumpstop.structure.echelon import independent_columns, null_space
+from bumpstop.structure.graph import components
+from bumpstop.structure.model import LinearModel
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
-from bumpstop.structure.structure import Structure
 
 __all__ = ["MOST_DOFS", "structure_modes"]
 
@@ -19,7 +18,7 @@ MOST_DOFS = 3000
 """Most free dofs that move together: their eigenproblem is solved with dense matrices."""
 
 
-def structure_modes(structure: Structure, count: int) -> tuple[FloatArray, FloatArray]:
+def structure_modes(model: LinearModel, count: int) -> tuple[FloatArray, FloatArray]:
     """Return the lowest modes: ``omega2`` (count,) in rad2/s2 and shapes (dofs, count).
 
     Rigid modes come first, with ``omega2`` exactly zero and the shapes of exact rigid
@@ -33,12 +32,12 @@ def structure_modes(structure: Structure, count: int) -> tuple[FloatArray, Float
     InputError
         If there are fewer free dofs than modes, or too many dofs for dense matrices.
     """
-    free = structure.free
+    free = model.free
     if count > len(free):
         hint = f"the structure has {len(free)} free dofs"
         raise InputError("more modes than free dofs", key="modes", value=count, hint=hint)
-    stiffness, mass = structure.stiffness.restricted(free), structure.mass.restricted(free)
-    rigid = rigid_shapes(structure)
+    stiffness, mass = model.reduced(model.stiffness), model.reduced(model.mass)
+    rigid = model.rigid_shapes()
     omega2, shapes = [np.zeros(0)], [np.zeros((len(free), 0))]
     for dofs in _uncoupled(stiffness, mass):
         values, vectors = _block_modes(
@@ -50,17 +49,15 @@ def structure_modes(structure: Structure, count: int) -> tuple[FloatArray, Float
         omega2.append(values)
         shapes.append(np.zeros((len(free), len(values))))
         shapes[-1][dofs] = vectors
-    return _lowest(structure, np.concatenate(omega2), np.hstack(shapes), count)
+    return _lowest(model, np.concatenate(omega2), np.hstack(shapes), count)
 
 
 def _lowest(
-    structure: Structure, omega2: FloatArray, shapes: FloatArray, count: int
+    model: LinearModel, omega2: FloatArray, shapes: FloatArray, count: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the modes of lowest frequency, on all dofs of the structure."""
+    """Return the modes of lowest frequency, on all dofs of the model."""
     order = np.argsort(omega2, kind="stable")[:count]
-    everywhere = np.zeros((len(structure.dofs), count))
-    everywhere[structure.free] = _largest_positive(shapes[:, order])
-    return omega2[order], everywhere
+    return omega2[order], _largest_positive(model.expansion @ shapes[:, order])
 
 
 def _uncoupled(stiffness: SparseMatrix, mass: SparseMatrix) -> list[IndexArray]:

@@ -62,6 +62,11 @@ class SparseMatrix:
         starts = np.searchsorted(columns[first], np.arange(shape[1] + 1))
         return cls(shape, starts, rows[first], summed)
 
+    @classmethod
+    def selection(cls, size: int, kept: IndexArray) -> SparseMatrix:
+        """Return the matrix (size, kept) that puts values at the rows ``kept``, zeros elsewhere."""
+        return cls((size, len(kept)), np.arange(len(kept) + 1), kept, np.ones(len(kept)))
+
     @property
     def columns(self) -> IndexArray:
         """Column of each entry."""

@@ -19,6 +19,7 @@ from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.mass import PointMass
 from bumpstop.structure.mesh import Mesh, user_nodes
 from bumpstop.structure.points import beam_point
+from bumpstop.structure.rigid import rigid_shapes
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 from bumpstop.structure.support import Support
 
@@ -99,6 +100,11 @@ class Structure:
         return np.flatnonzero(free)
 
     @cached_property
+    def expansion(self) -> SparseMatrix:
+        """All dofs by the free ones, (dofs, free dofs): u = expansion @ x, with x = u[free]."""
+        return SparseMatrix.selection(len(self.dofs), self.free)
+
+    @cached_property
     def stiffness(self) -> SparseMatrix:
         """Symmetric stiffness matrix on all dofs, supports not yet applied; N/m, N and N m."""
         return self._assembled("stiffness")
@@ -122,6 +128,14 @@ class Structure:
     def circulatory(self) -> SparseMatrix:
         """Skew-symmetric part of the stiffness of bearings, on all dofs; as stiffness."""
         return self._assembled("circulatory")
+
+    def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
+        """Return a matrix of all dofs as one of the free dofs, expansion' @ matrix @ expansion."""
+        return matrix.restricted(self.free)
+
+    def rigid_shapes(self) -> FloatArray:
+        """Return all motions that strain nothing, by the free dofs, (free dofs, motions)."""
+        return rigid_shapes(self.mesh, self.stiffness, self.free)
 
     def displacement_form(self, node: str, dof: str) -> LinearForm:
         """Return one dof of a node, or of a point along a beam, as a form of all dofs.

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bumpstop.modal.echelon import independent_columns, null_space
-from bumpstop.modal.graph import components
+from bumpstop.structure.echelon import independent_columns, null_space
+from bumpstop.structure.graph import components
 
 
 @pytest.mark.parametrize(("rows", "rank"), [(3, 3), (10, 2), (6, 6), (0, 0), (4, 0)])

@@ -6,16 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray
-from bumpstop.modal.echelon import null_space
-from bumpstop.modal.graph import components
+from bumpstop.structure.echelon import null_space
 from bumpstop.structure.frame import rigid_motions
-from bumpstop.structure.sparse import IndexArray
-from bumpstop.structure.structure import Structure
+from bumpstop.structure.graph import components
+from bumpstop.structure.mesh import Mesh
+from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
 __all__ = ["rigid_shapes"]
 
 
-def rigid_shapes(structure: Structure) -> FloatArray:
+def rigid_shapes(mesh: Mesh, stiffness: SparseMatrix, free: IndexArray) -> FloatArray:
     """Return all motions that strain nothing, (free dofs, motions).
 
     Each piece of the structure that hangs together has its own. They come from geometry
@@ -23,18 +23,17 @@ def rigid_shapes(structure: Structure) -> FloatArray:
     Every part is free in space by itself, so these are the whole null space of the stiffness
     matrix; a part that holds on to the ground would have to count as a support here.
     """
-    matrix = structure.stiffness
-    pieces = components(len(structure.mesh.names), matrix.rows // 6, matrix.columns // 6)
-    held = np.ones(len(structure.dofs), dtype=bool)
-    held[structure.free] = False
-    shapes = [_piece_shapes(structure, np.array(nodes), held) for nodes in pieces]
-    return np.hstack(shapes)[structure.free]
+    pieces = components(len(mesh.names), stiffness.rows // 6, stiffness.columns // 6)
+    held = np.ones(stiffness.shape[0], dtype=bool)
+    held[free] = False
+    shapes = [_piece_shapes(mesh, np.array(nodes), held) for nodes in pieces]
+    return np.hstack(shapes)[free]
 
 
-def _piece_shapes(structure: Structure, nodes: IndexArray, held: NDArray[np.bool_]) -> FloatArray:
+def _piece_shapes(mesh: Mesh, nodes: IndexArray, held: NDArray[np.bool_]) -> FloatArray:
     """Return the rigid motions of one piece on all dofs of the structure."""
-    positions = structure.mesh.positions[nodes]
-    dofs = structure.mesh.dofs_of(nodes)
+    positions = mesh.positions[nodes]
+    dofs = mesh.dofs_of(nodes)
     # Motions about a held node are the simplest to write: a hinge leaves a plain rotation.
     about = positions[held[dofs][:, :3].sum(axis=1).argmax()]
     size = _power_of_two(np.abs(positions - about).max())

@@ -1,0 +1,64 @@
+"""What the modes are computed from: a structure built here, or matrices from elsewhere."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from bumpstop.arguments import FloatArray, Vector
+from bumpstop.structure.dofs import Dof
+from bumpstop.structure.forms import LinearForm
+from bumpstop.structure.sparse import IndexArray, SparseMatrix
+
+__all__ = ["LinearModel"]
+
+
+class LinearModel(Protocol):
+    """A linear model in space: all that a modal basis asks of a structure.
+
+    Matrices are on all dofs, supports and relations not yet applied. What can move is told by
+    the independent dofs x, with u = ``expansion`` @ x on all dofs and x = u[``free``].
+    """
+
+    @property
+    def dofs(self) -> tuple[Dof, ...]:
+        """Node and dof of each row."""
+
+    @property
+    def free(self) -> IndexArray:
+        """Numbers of the independent dofs, ascending."""
+
+    @property
+    def expansion(self) -> SparseMatrix:
+        """All dofs by the independent ones, (dofs, free dofs)."""
+
+    @property
+    def stiffness(self) -> SparseMatrix:
+        """Symmetric stiffness matrix; N/m, N and N m."""
+
+    @property
+    def mass(self) -> SparseMatrix:
+        """Symmetric mass matrix; kg, kg m and kg m2."""
+
+    @property
+    def damping(self) -> SparseMatrix:
+        """Symmetric damping matrix; N s/m, N s and N m s."""
+
+    @property
+    def gyroscopic(self) -> SparseMatrix:
+        """Skew-symmetric matrix of velocities; units as damping."""
+
+    @property
+    def circulatory(self) -> SparseMatrix:
+        """Skew-symmetric matrix of displacements; units as stiffness."""
+
+    def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
+        """Return expansion' @ matrix @ expansion; what is symmetric stays so to the bit."""
+
+    def rigid_shapes(self) -> FloatArray:
+        """Return all motions that strain nothing, by the independent dofs, (free dofs, r)."""
+
+    def displacement_form(self, node: str, dof: str) -> LinearForm:
+        """Return one dof of a node as a form of all dofs."""
+
+    def position(self, node: str) -> Vector:
+        """Return where a node is at rest, in m."""
