@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.gauge import Gauge
     from bumpstop.structure.mass import PointMass
     from bumpstop.structure.material import Material
+    from bumpstop.structure.matrices import Matrices
     from bumpstop.structure.section import Rectangle
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
@@ -41,6 +42,7 @@ __all__ = [
     "Gravity",
     "InputError",
     "Material",
+    "Matrices",
     "ModalBasis",
     "ModalState",
     "NodalForce",
@@ -66,6 +68,7 @@ _HOME = {
     "Gravity": "loads.gravity",
     "InputError": "errors",
     "Material": "structure.material",
+    "Matrices": "structure.matrices",
     "ModalBasis": "modal.basis",
     "ModalState": "loads.initial",
     "NodalForce": "loads.force",
