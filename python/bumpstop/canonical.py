@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bumpstop import _core
+from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
+    from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
 
 __all__ = ["CanonicalForm", "canonical_form"]
@@ -34,11 +36,13 @@ def canonical_form(problem: Problem) -> CanonicalForm:
     Raises
     ------
     InputError
-        If something that the problem names cannot be found on the basis.
+        If something that the problem names cannot be found on the basis, or more than the
+        laws couples its modes.
     bumpstop._core.CoreError
         If the core refuses the numbers.
     """
     basis = problem.basis
+    _refuse_coupling(basis)
     modes = len(basis.omega2)
     laws = [_core.Stop(law.row(basis), law.gap, law.stiffness, law.damping) for law in problem.laws]
     force = sum((load.modal_force(basis) for load in problem.loads), np.zeros(modes))
@@ -48,3 +52,15 @@ def canonical_form(problem: Problem) -> CanonicalForm:
         displacement, velocity = problem.initial.modal_state(basis)
     system = _core.System(basis.omega2, basis.damping)
     return CanonicalForm(system, laws, force, displacement, velocity)
+
+
+def _refuse_coupling(basis: ModalBasis) -> None:
+    """Raise where velocities or skew forces couple the modes: the core cannot do that yet."""
+    for what in ("gyroscopic", "circulatory"):
+        if getattr(basis, what) is not None:
+            hint = "leave out what spins, and bearings of unequal cross stiffness"
+            raise InputError(f"{what} forces couple the modes", key="basis", hint=hint)
+    matrix = basis.damping_matrix
+    if matrix is not None and np.count_nonzero(matrix - np.diag(matrix.diagonal())):
+        hint = 'make the basis with damping_coupling="diagonal", which keeps their own damping'
+        raise InputError("damping couples the modes", key="basis", hint=hint)

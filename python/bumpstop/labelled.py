@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from bumpstop.arguments import FloatArray
+    from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["modes_over_time", "over_time", "time_coordinate"]
 
@@ -38,20 +39,26 @@ def over_time(
 
 
 def modes_over_time(
-    quantity: str, times: FloatArray, values: FloatArray, frequencies: FloatArray
+    quantity: str, times: FloatArray, values: FloatArray, basis: ModalBasis
 ) -> xr.DataArray:
-    """Return values (time, mode), modes counted from 1 and with their frequencies in Hz."""
+    """Return values (time, mode), modes counted from 1 and with what each of them is.
+
+    Where the modes are as the user gave them, their frequencies in Hz are there too.
+    """
     import xarray as xr
 
-    hertz = {"units": "Hz", "long_name": "natural frequency"}
+    coordinates = {
+        "time": time_coordinate(times),
+        "mode": np.arange(1, len(basis.labels) + 1),
+        "label": ("mode", list(basis.labels)),
+    }
+    if basis.coordinates is None:
+        hertz = {"units": "Hz", "long_name": "natural frequency"}
+        coordinates["frequency"] = ("mode", basis.frequencies, hertz)
     return xr.DataArray(
         values,
         dims=("time", "mode"),
-        coords={
-            "time": time_coordinate(times),
-            "mode": np.arange(1, len(frequencies) + 1),
-            "frequency": ("mode", frequencies, hertz),
-        },
+        coords=coordinates,
         name=quantity,
         attrs=QUANTITIES[quantity].attributes,
     )

@@ -119,7 +119,10 @@ class Response:
     # Plain arrays: what everything inside uses, so that a run needs no xarray or pandas.
 
     def motion(self, derivative: int = 0, times: ArrayLike | None = None) -> FloatArray:
-        """Return modal displacement (0), velocity (1) or acceleration (2), shape (time, N)."""
+        """Return displacement (0), velocity (1) or acceleration (2) of the canonical modes.
+
+        Shape (time, N). `sample` gives the amplitudes of the vectors that the user gave.
+        """
         return self.history.motion(self._instants(times), derivative)
 
     def sample(
@@ -132,8 +135,9 @@ class Response:
         quantity
             ``displacement``, ``velocity``, ``acceleration`` of a node and dof (m or rad, and
             per s and s2); ``modal_displacement``, ``modal_velocity``, ``modal_acceleration``
-            of a mode counted from 1, or of all; ``stop_force`` (N) and ``gap`` (m) of a stop;
-            ``gauge`` (strain) of a gauge.
+            of a mode counted from 1, or of all, where a mode is a vector of the basis as its
+            user gave it; ``stop_force`` (N) and ``gap`` (m) of a stop; ``gauge`` (strain) of
+            a gauge.
         target
             What it is the quantity of: ``"B", "dy"``, or ``"guide"``.
         times
@@ -142,7 +146,7 @@ class Response:
         Returns
         -------
         ndarray
-            Values (time,), or (time, N) for all modes.
+            Values (time,), or (time, U) for all modes.
 
         Raises
         ------
@@ -170,7 +174,8 @@ class Response:
             distance, _, force = self.history.law_motion(law, self._instants(times))
             return force if quantity == "stop_force" else distance
         motion = self.motion(MOTIONS.index(quantity.removeprefix("modal_")), times)
-        return motion[:, self._mode_index(target[0])] if target else motion
+        amplitudes = self.problem.basis.amplitudes(motion)
+        return amplitudes[:, self._mode_index(target[0])] if target else amplitudes
 
     def energy_terms(self, times: ArrayLike | None = None) -> dict[str, FloatArray]:
         """Return the energy ledger as plain arrays (time,), in J; see `energy`."""
@@ -218,9 +223,16 @@ class Response:
         return self._nodal("acceleration", node, dof)
 
     def modal_displacement(self) -> xr.DataArray:
-        """Return the modal displacements (time, mode), in kg^0.5 m, modes counted from 1."""
-        frequencies = self.problem.basis.frequencies
-        return modes_over_time("modal_displacement", self.times, self.motion(0), frequencies)
+        """Return the modal displacements (time, mode), in kg^0.5 m, modes counted from 1.
+
+        They are the amplitudes of the basis' vectors as the user gave them, its ``labels``.
+        """
+        return modes_over_time(
+            "modal_displacement",
+            self.times,
+            self.sample("modal_displacement"),
+            self.problem.basis,
+        )
 
     def stop_force(self, name: str) -> xr.DataArray:
         """Return the force of a stop on the structure over time, in N along its normal.
@@ -326,7 +338,7 @@ class Response:
         return self.problem.basis.gauge_row(gauges[one_of("gauge", gauge, tuple(gauges))])
 
     def _mode_index(self, mode: str | int) -> int:
-        modes = len(self.problem.basis.omega2)
+        modes = len(self.problem.basis.labels)
         if not isinstance(mode, int) or not 1 <= mode <= modes:
             raise InputError(f"must be a mode from 1 to {modes}", key="mode", value=mode)
         return mode - 1

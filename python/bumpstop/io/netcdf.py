@@ -87,9 +87,13 @@ def _modes(response: Response) -> Iterator[Variable]:
     yield Variable("mode", ("mode",), numbers, {"long_name": "number of the mode"})
     yield Variable("frequency", ("mode",), basis.frequencies, hertz)
     yield Variable("damping_ratio", ("mode",), basis.damping_ratio, ratio)
-    for derivative, name in enumerate(("modal_displacement", "modal_velocity")):
-        values = response.motion(derivative)
-        yield Variable(name, ("time", "mode"), values, QUANTITIES[name].attributes)
+    over = "mode"
+    if basis.coordinates is not None:
+        over, told = "vector", {"long_name": "vector of the basis as its user gave it"}
+        yield Variable("vector", ("vector",), _texts(basis.labels), told)
+    for name in ("modal_displacement", "modal_velocity"):
+        values = response.sample(name)
+        yield Variable(name, ("time", over), values, QUANTITIES[name].attributes)
 
 
 def _stops(response: Response) -> Iterator[Variable]:

@@ -20,14 +20,15 @@ __all__ = ["ModalState", "RigidRotation"]
 
 @dataclass(frozen=True)
 class ModalState:
-    """Displacement and velocity of each mode of the basis as its user gave it.
+    """Displacement and velocity of each vector of the basis as its user gave it.
 
     Parameters
     ----------
     displacement
-        Modal displacements (N,) in m kg^0.5 (unit modal mass); all zero where left out.
+        Amplitudes (U,), one for each of the basis' ``labels``: in m kg^0.5 for vectors of unit
+        modal mass, as modes are; all zero where left out.
     velocity
-        Modal velocities (N,) in m kg^0.5/s; all zero where left out.
+        Their rates (U,), per s; all zero where left out.
 
     Raises
     ------
@@ -51,16 +52,17 @@ class ModalState:
                 object.__setattr__(self, key, series(key, given))
 
     def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
-        """Return modal displacement and velocity, each (N,).
+        """Return displacement and velocity of the canonical modes, each (N,).
 
         Raises
         ------
         InputError
-            If a list has not one number a mode.
+            If a list has not one number a vector.
         """
-        modes = len(basis.omega2)
+        modes = len(basis.labels)
         displacement = _one_a_mode("displacement", self.displacement, modes)
-        return displacement, _one_a_mode("velocity", self.velocity, modes)
+        velocity = _one_a_mode("velocity", self.velocity, modes)
+        return basis.canonical(displacement), basis.canonical(velocity)
 
 
 @dataclass(frozen=True)

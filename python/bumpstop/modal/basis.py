@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray, count, did_you_mean, not_negative, one_of, series
 from bumpstop.errors import InputError
-from bumpstop.modal.damping import damping_ratios
+from bumpstop.modal.coordinates import UserCoordinates
+from bumpstop.modal.damping import Damping, angular_frequencies, modal_damping
 from bumpstop.modal.eigen import structure_modes
+from bumpstop.modal.given import given_labels, given_vectors
+from bumpstop.modal.projected import projected
+from bumpstop.modal.vectors import canonical_vectors
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.gauge import Gauge
+from bumpstop.structure.model import LinearModel
 from bumpstop.structure.structure import Structure
 
 __all__ = ["ModalBasis"]
@@ -21,14 +26,17 @@ __all__ = ["ModalBasis"]
 
 @dataclass(frozen=True, eq=False)
 class ModalBasis:
-    """Modes of unit modal mass, with their frequencies, damping and shapes.
+    """Vectors of unit modal mass, with their frequencies, damping and shapes.
 
-    Make one with ``from_structure`` or ``from_modes``. N is the number of modes.
+    Make one with ``from_structure``, ``from_modes`` or ``from_vectors``. N is the number of
+    vectors. Between them neither mass nor stiffness couples (the canonical form): they are
+    modes of the structure, or of the structure forced to move as the vectors allow.
 
     Parameters
     ----------
     omega2
-        Squared angular frequencies in rad2/s2, (N,); exactly zero for rigid modes.
+        Squared angular frequencies in rad2/s2, (N,); exactly zero for rigid modes, negative
+        for those in which the structure is unstable.
     damping_ratio
         Ratios of critical damping, (N,).
     dofs
@@ -37,8 +45,21 @@ class ModalBasis:
         Mode shapes, (rows, N), in 1/sqrt(kg) and rad/(m sqrt(kg)).
     mass_rows
         Shapes times the mass matrix, (N, rows); None where there is no mass matrix.
-    structure
-        The structure that the modes were computed from; None for modes from elsewhere.
+    model
+        What the modes were computed from; None for modes from elsewhere.
+    damping_matrix
+        The whole modal damping in rad/s, symmetric, (N, N); None where the ratios say it all.
+    gyroscopic, circulatory
+        What multiplies modal velocities and displacements beside damping and ``omega2``, skew,
+        (N, N), in rad/s and rad2/s2; None where there is none.
+    labels
+        What each vector of the user is, in words: ``mode 1``, ``static shape of B dy``.
+    coordinates
+        How the user's vectors make the canonical ones; None where they are the same.
+    dropped
+        Which vectors were left out because they depend on others, a sentence each.
+    neglected
+        What else was left out on request, a sentence each.
     """
 
     omega2: FloatArray
@@ -46,11 +67,28 @@ class ModalBasis:
     dofs: tuple[Dof, ...] = field(repr=False)
     shapes: FloatArray = field(repr=False)
     mass_rows: FloatArray | None = field(default=None, repr=False)
-    structure: Structure | None = field(default=None, repr=False)
+    model: LinearModel | None = field(default=None, repr=False)
+    damping_matrix: FloatArray | None = field(default=None, repr=False)
+    gyroscopic: FloatArray | None = field(default=None, repr=False)
+    circulatory: FloatArray | None = field(default=None, repr=False)
+    labels: tuple[str, ...] = field(default=(), repr=False)
+    coordinates: UserCoordinates | None = field(default=None, repr=False)
+    dropped: tuple[str, ...] = field(default=(), repr=False)
+    neglected: tuple[str, ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        if not self.labels:
+            labels = tuple(f"mode {number}" for number in range(1, len(self.omega2) + 1))
+            object.__setattr__(self, "labels", labels)
 
     @classmethod
     def from_structure(
-        cls, structure: Structure, *, modes: int, damping: float | Sequence[float] = 0.0
+        cls,
+        structure: Structure,
+        *,
+        modes: int,
+        damping: Damping = 0.0,
+        damping_coupling: str = "full",
     ) -> ModalBasis:
         """Compute the lowest modes of a structure.
 
@@ -61,7 +99,11 @@ class ModalBasis:
         modes
             Number of modes.
         damping
-            Ratio of critical damping: one for all modes, or one for each.
+            Ratio of critical damping: one for all modes, or one for each; or a rule such as
+            ``RayleighDamping`` or ``StructuralDamping``. What dampers of the structure do to
+            the modes is added.
+        damping_coupling
+            ``"full"``, or ``"diagonal"`` to neglect the damping that couples modes.
 
         Raises
         ------
@@ -69,15 +111,96 @@ class ModalBasis:
             If a value cannot be used, or the structure has fewer free dofs than modes.
         """
         number = count("modes", modes)
-        ratios = damping_ratios(damping, number)
         omega2, shapes = structure_modes(structure, number)
+        return cls._from_shapes(structure, omega2, shapes, damping, damping_coupling)
+
+    @classmethod
+    def from_vectors(
+        cls,
+        model: LinearModel,
+        vectors: FloatArray,
+        *,
+        labels: Sequence[str] = (),
+        damping: Damping = 0.0,
+        damping_coupling: str = "full",
+    ) -> ModalBasis:
+        """Take any displacement fields of a model as the basis of its motion.
+
+        The small eigenproblem of stiffness and mass on the vectors gives the canonical ones,
+        of unit modal mass and without coupling. Rigid motions among the combinations of the
+        vectors are separated exactly. Vectors that are in canonical form already are left as
+        they are. A vector that depends on those before it is left out, and ``dropped`` says
+        so. ``ModalState`` and the modal displacements of a response go on to count the vectors
+        as they were given; ``coordinates`` holds the way from one to the other.
+
+        Parameters
+        ----------
+        model
+            The structure that the vectors belong to.
+        vectors
+            Displacements of all dofs of the model, one field a column, (dofs, U); any scale.
+        labels
+            What each vector is, in words, (U,); they are numbered where left out.
+        damping
+            As in ``from_structure``; a list has one ratio for each canonical vector, in the
+            order of their frequencies.
+        damping_coupling
+            ``"full"``, or ``"diagonal"`` to neglect the damping that couples vectors.
+
+        Raises
+        ------
+        InputError
+            If a number is not finite, sizes do not fit, or a vector moves a dof that is held.
+
+        Examples
+        --------
+        >>> from bumpstop import Material, PointMass, Structure, Support
+        >>> point = Structure(nodes={"P": (0, 0, 0)}, masses=[PointMass("m", node="P", mass=4.0)],
+        ...     supports=[Support(nodes="P", fixed=("dz", "drx", "dry", "drz"))])
+        >>> basis = ModalBasis.from_vectors(point, np.eye(6)[:, :2])
+        >>> basis.shapes[:2]
+        array([[0.5, 0. ],
+               [0. , 0.5]])
+        """
+        given = given_vectors(model, vectors)
+        names = given_labels(labels, given.shape[1])
+        rigid = model.expansion @ model.rigid_shapes()
+        found = canonical_vectors(given, model.stiffness, model.mass, rigid)
+        if len(found.omega2) == 0:
+            raise InputError("all vectors are zero", key="vectors")
+        basis = cls._from_shapes(model, found.omega2, found.shapes, damping, damping_coupling)
+        return replace(
+            basis,
+            labels=names,
+            coordinates=found.coordinates,
+            dropped=tuple(
+                f"{names[i]} is left out: it depends on those before it" for i in found.dropped
+            ),
+        )
+
+    @classmethod
+    def _from_shapes(
+        cls,
+        model: LinearModel,
+        omega2: FloatArray,
+        shapes: FloatArray,
+        damping: Damping,
+        damping_coupling: str,
+    ) -> ModalBasis:
+        """Return the basis of canonical shapes of a model, with all that the model adds."""
+        dampers = projected(model.damping, shapes)
+        ratio, matrix, neglected = modal_damping(damping, omega2, dampers, damping_coupling)
         return cls(
             omega2=omega2,
-            damping_ratio=ratios,
-            dofs=structure.dofs,
+            damping_ratio=ratio,
+            dofs=model.dofs,
             shapes=shapes,
-            mass_rows=np.ascontiguousarray((structure.mass @ shapes).T),
-            structure=structure,
+            mass_rows=np.ascontiguousarray((model.mass @ shapes).T),
+            model=model,
+            damping_matrix=matrix,
+            gyroscopic=projected(model.gyroscopic, shapes, skew=True),
+            circulatory=projected(model.circulatory, shapes, skew=True),
+            neglected=() if neglected is None else (neglected,),
         )
 
     @classmethod
@@ -85,7 +208,7 @@ class ModalBasis:
         cls,
         *,
         frequency: Sequence[float],
-        damping: float | Sequence[float] = 0.0,
+        damping: Damping = 0.0,
         shapes: Mapping[Dof, Sequence[float]],
     ) -> ModalBasis:
         """Take modes from elsewhere: a measurement, another program, a formula.
@@ -95,7 +218,8 @@ class ModalBasis:
         frequency
             Natural frequencies in Hz.
         damping
-            Ratio of critical damping: one for all modes, or one for each.
+            Ratio of critical damping: one for all modes, or one for each; or a rule such as
+            ``RayleighDamping``.
         shapes
             Components of the modes, scaled to unit modal mass, by (node, dof).
 
@@ -114,23 +238,41 @@ class ModalBasis:
         """
         hertz = [not_negative("frequency", value) for value in series("frequency", frequency)]
         rows = [_components(key, values, len(hertz)) for key, values in _items(shapes)]
+        omega2 = (2.0 * np.pi * np.array(hertz)) ** 2
+        ratio, matrix, _ = modal_damping(damping, omega2)
         return cls(
-            omega2=(2.0 * np.pi * np.array(hertz)) ** 2,
-            damping_ratio=damping_ratios(damping, len(hertz)),
+            omega2=omega2,
+            damping_ratio=ratio,
+            damping_matrix=matrix,
             dofs=tuple((str(node), str(dof)) for node, dof in shapes),
             shapes=np.array(rows),
         )
 
     @property
+    def structure(self) -> Structure | None:
+        """The structure that the modes were computed from, if it was one."""
+        return self.model if isinstance(self.model, Structure) else None
+
+    @property
     def frequencies(self) -> FloatArray:
-        """Natural frequencies in Hz, (N,)."""
-        frequencies: FloatArray = np.sqrt(self.omega2) / (2.0 * np.pi)
-        return frequencies
+        """Natural frequencies in Hz, (N,).
+
+        That of an unstable mode is negative: it grows by e in 1 / (2 pi |frequency|) seconds.
+        """
+        frequencies: FloatArray = np.sign(self.omega2) * np.sqrt(np.abs(self.omega2))
+        return frequencies / (2.0 * np.pi)
 
     @property
     def damping(self) -> FloatArray:
-        """Damping of each modal equation, 2 xi omega, in rad/s, (N,)."""
-        return 2.0 * self.damping_ratio * np.sqrt(self.omega2)
+        """Damping of each modal equation alone, 2 xi omega, in rad/s, (N,)."""
+        if self.damping_matrix is not None:
+            return self.damping_matrix.diagonal().copy()
+        return 2.0 * self.damping_ratio * angular_frequencies(self.omega2)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a user should know of this basis, a sentence each."""
+        return (*self._unstable, *self.dropped, *self.neglected)
 
     def row(self, node: str, dof: str) -> FloatArray:
         """Return how much each mode moves a dof, (N,): u = row . q.
@@ -193,6 +335,27 @@ class ModalBasis:
             )
         coordinates: FloatArray = self.mass_rows @ field
         return coordinates
+
+    def canonical(self, amplitudes: FloatArray) -> FloatArray:
+        """Return the canonical coordinates (N,) of amplitudes of the user's vectors (U,)."""
+        return (
+            amplitudes if self.coordinates is None else self.coordinates.to_canonical @ amplitudes
+        )
+
+    def amplitudes(self, motion: FloatArray) -> FloatArray:
+        """Return the amplitudes of the user's vectors, (..., U), in a canonical motion (..., N)."""
+        if self.coordinates is None:
+            return motion
+        # Not BLAS: an instant must have the same bits on any grid.
+        given: FloatArray = np.einsum("...n,un->...u", motion, self.coordinates.from_canonical)
+        return given
+
+    @property
+    def _unstable(self) -> list[str]:
+        return [
+            f"the structure is unstable in mode {number}: it moves away by itself"
+            for number in np.flatnonzero(self.omega2 < 0.0) + 1
+        ]
 
     @cached_property
     def _rows(self) -> dict[Dof, int]:

@@ -7,6 +7,7 @@ import numpy as np
 from bumpstop._core import CoreError, symmetric_modes
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError, InputError
+from bumpstop.modal.signs import largest_positive
 from bumpstop.structure.echelon import independent_columns, null_space
 from bumpstop.structure.graph import components
 from bumpstop.structure.model import LinearModel
@@ -57,7 +58,7 @@ def _lowest(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the modes of lowest frequency, on all dofs of the model."""
     order = np.argsort(omega2, kind="stable")[:count]
-    return omega2[order], _largest_positive(model.expansion @ shapes[:, order])
+    return omega2[order], largest_positive(model.expansion @ shapes[:, order])
 
 
 def _uncoupled(stiffness: SparseMatrix, mass: SparseMatrix) -> list[IndexArray]:
@@ -126,11 +127,3 @@ def _unit_columns(matrix: FloatArray) -> FloatArray:
 def _symmetric(matrix: FloatArray) -> FloatArray:
     symmetric: FloatArray = 0.5 * (matrix + matrix.T)
     return np.ascontiguousarray(symmetric)
-
-
-def _largest_positive(shapes: FloatArray) -> FloatArray:
-    """Return shapes with the largest component positive; the first of equals decides."""
-    sizes = np.abs(shapes)
-    largest = np.argmax(sizes >= (1.0 - 1e-9) * sizes.max(axis=0), axis=0)
-    signs: FloatArray = np.sign(shapes[largest, np.arange(shapes.shape[1])])
-    return shapes * signs

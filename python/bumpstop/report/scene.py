@@ -42,7 +42,7 @@ def motion_scene(response: Response, watched: tuple[str, str], drawing: Outline)
     """
     problem = response.problem
     times = _frame_times(response)
-    modal = response.sample("modal_displacement", times=times)
+    modal = response.motion(0, times)
     travel = np.einsum("pam,fm->fpa", drawing.shapes, modal[:: max(len(modal) // 500, 1)])
     reach = np.abs(travel).max(axis=(0, 1))
     normals = [np.abs(law.normal) * reach.max() for law in problem.laws]

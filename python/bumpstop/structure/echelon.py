@@ -11,7 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 
-__all__ = ["independent_columns", "null_space"]
+__all__ = ["independent_columns", "independent_rows", "null_space"]
 
 _NEGLIGIBLE = 1e-9
 """Pivots below this are rounding; matrices must come with entries of order one."""
@@ -44,6 +44,19 @@ def independent_columns(matrix: FloatArray) -> FloatArray:
     """Return columns of a matrix that span all of them, in their order."""
     _, _, columns = _eliminated(matrix)
     return matrix[:, sorted(columns)]
+
+
+def independent_rows(matrix: FloatArray) -> list[int]:
+    """Return numbers of rows that determine all others, ascending.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> independent_rows(np.array([[1.0, 0.0], [2.0, 0.0], [0.0, 1.0]]))
+    [1, 2]
+    """
+    _, rows, _ = _eliminated(matrix)
+    return sorted(rows)
 
 
 def _eliminated(matrix: FloatArray) -> tuple[FloatArray, list[int], list[int]]:

@@ -103,6 +103,6 @@ def _check_target(reference: Reference, problem: Problem) -> None:
         one_of("stop", reference.stop, [law.name for law in problem.laws])
     if reference.gauge is not None:
         one_of("gauge", reference.gauge, [gauge.name for gauge in problem.gauges])
-    modes = len(problem.basis.omega2)
+    modes = len(problem.basis.labels)
     if reference.mode is not None and reference.mode > modes:
         raise InputError(f"must be at most {modes}", key="mode", value=reference.mode)

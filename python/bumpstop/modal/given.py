@@ -1,0 +1,65 @@
+"""Vectors that a user hands over: checked against the model that they belong to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, name
+from bumpstop.errors import InputError
+from bumpstop.structure.model import LinearModel
+
+__all__ = ["given_labels", "given_vectors"]
+
+ROUNDING = 1e-9
+"""Motion of a held dof below this, relative to the largest of its vector, is rounding."""
+
+
+def given_vectors(model: LinearModel, vectors: object) -> FloatArray:
+    """Return displacement fields of a model, one a column, (dofs, U).
+
+    Raises
+    ------
+    InputError
+        If they are not numbers, not finite or of another size, or move what the model holds.
+    """
+    fields = _table(vectors, len(model.dofs))
+    for number, field in enumerate(fields.T, start=1):
+        moved = model.expansion @ field[model.free]
+        wrong = np.flatnonzero(np.abs(field - moved) > ROUNDING * np.abs(field).max())
+        if len(wrong):
+            node, dof = model.dofs[wrong[0]]
+            what = f"vector {number} moves {dof} of {node}, which is not free to move so"
+            raise InputError(what, key="vectors", value=float(field[wrong[0]]))
+    return fields
+
+
+def given_labels(labels: Sequence[str], count: int) -> tuple[str, ...]:
+    """Return what each of ``count`` vectors is called.
+
+    Raises
+    ------
+    InputError
+        If there is another number of labels, or one is no text.
+    """
+    if not labels:
+        return tuple(f"vector {number}" for number in range(1, count + 1))
+    if len(labels) != count:
+        what = f"must be one for each of the {count} vectors"
+        raise InputError(what, key="labels", value=f"{len(labels)} labels")
+    return tuple(name("labels", label) for label in labels)
+
+
+def _table(vectors: object, rows: int) -> FloatArray:
+    try:
+        fields = np.array(vectors, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError("must be numbers", key="vectors", value=vectors) from error
+    if fields.ndim != 2 or len(fields) != rows or fields.shape[1] == 0:
+        shape = " x ".join(map(str, fields.shape))
+        what = f"must have one row for each of the {rows} dofs of the model, and a column a vector"
+        raise InputError(what, key="vectors", value=shape)
+    if not np.isfinite(fields).all():
+        raise InputError("must be finite", key="vectors")
+    return fields
