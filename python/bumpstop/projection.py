@@ -12,7 +12,7 @@ from bumpstop.structure.dofs import DOFS
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["ROTATIONS", "TRANSLATIONS", "direction_row"]
+__all__ = ["ROTATIONS", "TRANSLATIONS", "along", "direction_row"]
 
 TRANSLATIONS = DOFS[:3]
 ROTATIONS = DOFS[3:]
@@ -32,3 +32,11 @@ def direction_row(
         if component != 0.0:
             row += component * basis.row(node, dof)
     return row
+
+
+def along(row: FloatArray, motion: FloatArray) -> FloatArray:
+    """Return a row (N,) times modal motion (time, N): the motion of what the row stands for."""
+    # Not BLAS: its order of summation depends on the number of instants, so that the same
+    # one could give different bits on another grid.
+    values: FloatArray = np.einsum("tn,n->t", motion, row)
+    return values

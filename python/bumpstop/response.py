@@ -12,6 +12,7 @@ import numpy as np
 from bumpstop.arguments import FloatArray, one_of
 from bumpstop.errors import InputError
 from bumpstop.labelled import modes_over_time, over_time
+from bumpstop.projection import along
 from bumpstop.quantities import QUANTITIES, dof_units
 
 if TYPE_CHECKING:
@@ -166,9 +167,9 @@ class Response:
         if quantity in MOTIONS:
             node, dof = map(str, target)
             row = self.problem.basis.row(node, dof)
-            return _along(row, self.motion(MOTIONS.index(quantity), times))
+            return along(row, self.motion(MOTIONS.index(quantity), times))
         if quantity == "gauge":
-            return _along(self._gauge_row(str(target[0])), self.motion(0, times))
+            return along(self._gauge_row(str(target[0])), self.motion(0, times))
         if quantity in ("stop_force", "gap"):
             law = self._law_index(str(target[0]))
             distance, _, force = self.history.law_motion(law, self._instants(times))
@@ -179,9 +180,9 @@ class Response:
 
     def energy_terms(self, times: ArrayLike | None = None) -> dict[str, FloatArray]:
         """Return the energy ledger as plain arrays (time,), in J; see `energy`."""
-        from bumpstop.post.energy import energy_terms
+        from bumpstop.post.energy import ledger
 
-        return energy_terms(self, self._instants(times))
+        return ledger(self, self._instants(times)).terms
 
     def impact_table(self) -> Table:
         """Return the impacts as plain columns; see `impacts`."""
@@ -353,13 +354,6 @@ class Response:
             node=node,
             dof=dof,
         )
-
-
-def _along(row: FloatArray, motion: FloatArray) -> FloatArray:
-    # Not BLAS: its order of summation depends on the number of rows, so that the same
-    # instant could give different bits on another grid.
-    values: FloatArray = np.einsum("tn,n->t", motion, row)
-    return values
 
 
 def _checked_times(times: ArrayLike, duration: float) -> FloatArray:

@@ -11,9 +11,10 @@ import numpy as np
 
 from bumpstop.files import written_whole
 from bumpstop.io.netcdf_format import Variable, write_file
-from bumpstop.post.energy import stop_energies
-from bumpstop.projection import TRANSLATIONS
+from bumpstop.post.energy import ledger
+from bumpstop.projection import TRANSLATIONS, along
 from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, STOP_ENERGIES, dof_units
+from bumpstop.response import MOTIONS
 from bumpstop.structure.dofs import DOFS, Dof
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from bumpstop.arguments import FloatArray
     from bumpstop.response import Response
     from bumpstop.structure.structure import Structure
 
@@ -67,19 +69,21 @@ def write_netcdf(
 
 
 def _variables(response: Response) -> Iterator[Variable]:
+    # Read once, used by several: reading from the core takes longer than writing.
+    motions = [response.motion(derivative) for derivative in range(len(MOTIONS))]
     yield Variable("time", ("time",), response.times, TIME)
-    yield from _modes(response)
+    yield from _modes(response, motions)
     yield from _stops(response)
-    yield from _gauges(response)
-    yield from _outputs(response)
+    yield from _gauges(response, motions[0])
+    yield from _outputs(response, motions)
     if response.problem.basis.structure is not None:
-        yield from _nodes(response, response.problem.basis.structure)
+        yield from _nodes(response, response.problem.basis.structure, motions[0])
     yield from _energies(response)
     yield from _impacts(response)
     yield from _events(response)
 
 
-def _modes(response: Response) -> Iterator[Variable]:
+def _modes(response: Response, motions: list[FloatArray]) -> Iterator[Variable]:
     basis = response.problem.basis
     numbers = np.arange(1, len(basis.omega2) + 1)
     hertz = {"units": "Hz", "long_name": "natural frequency"}
@@ -91,8 +95,8 @@ def _modes(response: Response) -> Iterator[Variable]:
     if basis.coordinates is not None:
         over, told = "vector", {"long_name": "vector of the basis as its user gave it"}
         yield Variable("vector", ("vector",), _texts(basis.labels), told)
-    for name in ("modal_displacement", "modal_velocity"):
-        values = response.sample(name)
+    for name, motion in zip(("modal_displacement", "modal_velocity"), motions, strict=False):
+        values = basis.amplitudes(motion)
         yield Variable(name, ("time", over), values, QUANTITIES[name].attributes)
 
 
@@ -101,32 +105,35 @@ def _stops(response: Response) -> Iterator[Variable]:
     if not stops:
         return
     yield Variable("stop", ("stop",), _texts(stops), {"long_name": "name of the stop"})
-    for name in ("stop_force", "gap"):
-        values = np.stack([response.sample(name, stop) for stop in stops], axis=1)
+    found = [response.history.law_motion(stop, response.times) for stop in range(len(stops))]
+    distances, _, forces = (np.stack(columns, axis=1) for columns in zip(*found, strict=True))
+    for name, values in (("stop_force", forces), ("gap", distances)):
         yield Variable(name, ("time", "stop"), values, QUANTITIES[name].attributes)
 
 
-def _gauges(response: Response) -> Iterator[Variable]:
-    gauges = [gauge.name for gauge in response.problem.gauges]
+def _gauges(response: Response, displacement: FloatArray) -> Iterator[Variable]:
+    gauges, basis = response.problem.gauges, response.problem.basis
     if not gauges:
         return
-    strains = np.stack([response.sample("gauge", gauge) for gauge in gauges], axis=1)
-    yield Variable("gauge", ("gauge",), _texts(gauges), {"long_name": "name of the gauge"})
+    names = _texts(gauge.name for gauge in gauges)
+    strains = np.stack([along(basis.gauge_row(gauge), displacement) for gauge in gauges], axis=1)
+    yield Variable("gauge", ("gauge",), names, {"long_name": "name of the gauge"})
     yield Variable("strain", ("time", "gauge"), strains, QUANTITIES["gauge"].attributes)
 
 
-def _outputs(response: Response) -> Iterator[Variable]:
+def _outputs(response: Response, motions: list[FloatArray]) -> Iterator[Variable]:
     """Give motions of the outputs and of the nodes at the stops, a variable each."""
     for node, dof in dict.fromkeys([*response.problem.outputs, *_stopped(response)]):
-        for quantity in ("displacement", "velocity", "acceleration"):
+        row = response.problem.basis.row(node, dof)
+        for quantity, motion in zip(MOTIONS, motions, strict=True):
             attributes = {
                 "units": dof_units(quantity, dof),
                 "long_name": f"{quantity} of {node} along {dof}",
                 "node": node,
                 "dof": dof,
             }
-            values = response.sample(quantity, node, dof)
-            yield Variable(_plain(f"{quantity}_{node}_{dof}"), ("time",), values, attributes)
+            name = _plain(f"{quantity}_{node}_{dof}")
+            yield Variable(name, ("time",), along(row, motion), attributes)
 
 
 def _stopped(response: Response) -> list[Dof]:
@@ -148,7 +155,7 @@ def _plain(name: str) -> str:
     return re.sub(r"\W", "_", name, flags=re.ASCII)
 
 
-def _nodes(response: Response, structure: Structure) -> Iterator[Variable]:
+def _nodes(response: Response, structure: Structure, motion: FloatArray) -> Iterator[Variable]:
     nodes = structure.mesh.names
     yield Variable("node", ("node",), _texts(nodes), {"long_name": "name of the node"})
     for axis, values in zip("xyz", structure.mesh.positions.T, strict=True):
@@ -158,7 +165,7 @@ def _nodes(response: Response, structure: Structure) -> Iterator[Variable]:
     if not dofs:
         return
     rows = np.arange(len(nodes))[:, np.newaxis] * 6 + [DOFS.index(dof) for dof in dofs]
-    displacement = response.motion(0) @ response.problem.basis.shapes[rows.ravel()].T
+    displacement = motion @ response.problem.basis.shapes[rows.ravel()].T
     table = displacement.reshape(-1, *rows.shape)
     attributes = QUANTITIES["displacement"].attributes | {"coordinates": "x y z"}
     yield Variable("dof", ("dof",), _texts(dofs), {"long_name": "degree of freedom"})
@@ -166,10 +173,11 @@ def _nodes(response: Response, structure: Structure) -> Iterator[Variable]:
 
 
 def _energies(response: Response) -> Iterator[Variable]:
-    for name, values in response.energy_terms().items():
+    found = ledger(response, response.times)
+    for name, values in found.terms.items():
         yield Variable(f"energy_{name}", ("time",), values, ENERGIES[name].attributes)
     if response.problem.laws:
-        for name, values in stop_energies(response, response.times).items():
+        for name, values in found.stops.items():
             attributes = STOP_ENERGIES[name].attributes
             yield Variable(f"energy_{name}", ("time", "stop"), values, attributes)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,11 +15,20 @@ if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
     from bumpstop.response import Response
 
-__all__ = ["energy_dataset", "energy_terms", "stop_energies"]
+__all__ = ["Ledger", "energy_dataset", "ledger"]
 
 
-def energy_terms(response: Response, times: FloatArray) -> dict[str, FloatArray]:
-    """Return the ledger's terms, each (time,) in J.
+class Ledger(NamedTuple):
+    """The energies of a response, in J."""
+
+    terms: dict[str, FloatArray]
+    """Each term of the whole, (time,)."""
+    stops: dict[str, FloatArray]
+    """What each stop stores and has dissipated, (time, stop)."""
+
+
+def ledger(response: Response, times: FloatArray) -> Ledger:
+    """Return the ledger, whole and stop by stop.
 
     The core integrates each term from its own power; this only adds them up:
     ``total = kinetic + elastic + stored + dissipated_damping + dissipated_stops``, which
@@ -49,16 +58,11 @@ def energy_terms(response: Response, times: FloatArray) -> dict[str, FloatArray]
         "total_initial": np.full_like(total, present[0]),
         "residual": total - present[0] - core["load_work"],
     }
-    return {name: values[1:] for name, values in terms.items()}
-
-
-def stop_energies(response: Response, times: FloatArray) -> dict[str, FloatArray]:
-    """Return what each stop stores and has dissipated, each (time, stop) in J."""
-    core = response.history.energy(times)
-    return {
-        "stored_in_stop": core["law_stored"].T,
-        "dissipated_in_stop": core["law_dissipated"].T,
-    }
+    stops = {"stored_in_stop": core["law_stored"].T, "dissipated_in_stop": core["law_dissipated"].T}
+    return Ledger(
+        terms={name: values[1:] for name, values in terms.items()},
+        stops={name: values[1:] for name, values in stops.items()},
+    )
 
 
 def energy_dataset(response: Response) -> xr.Dataset:
@@ -66,13 +70,13 @@ def energy_dataset(response: Response) -> xr.Dataset:
     import xarray as xr
 
     times = response.times
-    ledger = {
-        name: ("time", values, ENERGIES[name].attributes)
-        for name, values in energy_terms(response, times).items()
+    found = ledger(response, times)
+    terms = {
+        name: ("time", values, ENERGIES[name].attributes) for name, values in found.terms.items()
     }
     shares = {
         name: (("time", "stop"), values, STOP_ENERGIES[name].attributes)
-        for name, values in stop_energies(response, times).items()
+        for name, values in found.stops.items()
     }
     stops = [law.name for law in response.problem.laws]
-    return xr.Dataset(ledger | shares, coords={"time": time_coordinate(times), "stop": stops})
+    return xr.Dataset(terms | shares, coords={"time": time_coordinate(times), "stop": stops})
