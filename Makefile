@@ -16,6 +16,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PATH := $(PATH):$(HOME)/.cargo/bin
 export PYO3_PYTHON := $(CURDIR)/$(BIN)/python
 
+PYTHON_SOURCES := $(shell find python -name '*.py')
 # The folders are listed too: a file taken away changes nothing else.
 CORE_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find crates)
 
@@ -25,7 +26,7 @@ CORE_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find crates)
 help: ## Say what can be made
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
 
-run: $(STAMPS)/core ## Compute the validation case SDNL32 and write its report
+run: $(STAMPS)/byte-code ## Compute the validation case SDNL32 and write its report
 	@$(BIN)/bumpstop run $(CASE) --out $(OUT)
 	@echo "Open $(OUT)/report.html in a browser."
 
@@ -46,7 +47,7 @@ format: $(STAMPS)/dev ## Bring Python and Rust into the house style
 	$(CARGO) fmt
 
 # numbalsoda comes as source: pip builds it with cmake and a Fortran compiler.
-bench: $(STAMPS)/core $(STAMPS)/dev $(STAMPS)/bench ## Measure the speed beside other solvers
+bench: $(STAMPS)/byte-code $(STAMPS)/dev $(STAMPS)/bench ## Measure the speed beside other solvers
 	$(BIN)/python benchmarks/sdnl32.py
 	$(BIN)/python benchmarks/startup.py
 
@@ -89,4 +90,9 @@ $(STAMPS)/core: $(STAMPS)/run $(CORE_SOURCES)
 	@env -u CONDA_PREFIX VIRTUAL_ENV='$(CURDIR)/$(VENV)' \
 		$(BIN)/maturin develop --release --locked --quiet >target/build.log 2>&1 || \
 		{ cat target/build.log; exit 1; }
+	@touch $@
+
+# As pip does with what it installs: where Python may not write byte code, or has not yet, a run takes half as long again.
+$(STAMPS)/byte-code: $(STAMPS)/core $(PYTHON_SOURCES)
+	@$(BIN)/python -m compileall -q python
 	@touch $@
