@@ -24,9 +24,11 @@ if TYPE_CHECKING:
     from bumpstop.simulate import simulate
     from bumpstop.structure.beam import Beam
     from bumpstop.structure.gauge import Gauge
+    from bumpstop.structure.link import RigidLink
     from bumpstop.structure.mass import PointMass
     from bumpstop.structure.material import Material
     from bumpstop.structure.matrices import Matrices
+    from bumpstop.structure.relation import Relation
     from bumpstop.structure.section import Rectangle
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
@@ -50,7 +52,9 @@ __all__ = [
     "PointMass",
     "Problem",
     "Rectangle",
+    "Relation",
     "Response",
+    "RigidLink",
     "RigidRotation",
     "Stop",
     "Structure",
@@ -76,7 +80,9 @@ _HOME = {
     "PointMass": "structure.mass",
     "Problem": "problem",
     "Rectangle": "structure.section",
+    "Relation": "structure.relation",
     "Response": "response",
+    "RigidLink": "structure.link",
     "RigidRotation": "loads.initial",
     "Stop": "laws.stop",
     "Structure": "structure.structure",

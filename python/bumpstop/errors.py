@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-__all__ = ["BumpstopError", "ComputationError", "InputError"]
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+__all__ = ["BumpstopError", "ComputationError", "InputError", "blamed"]
 
 
 class BumpstopError(Exception):
@@ -64,6 +67,23 @@ class InputError(BumpstopError, ValueError):
         shown = "" if self.value is None else f" (got {_shorten(repr(self.value))})"
         mend = f"; {self.hint}" if self.hint else ""
         return f"{where}: {self.what}{shown}{mend}" if where else f"{self.what}{shown}{mend}"
+
+
+@contextmanager
+def blamed(key: str) -> Iterator[None]:
+    """Say of mistakes found inside that they stand at ``key``.
+
+    Examples
+    --------
+    >>> with blamed("relations[0].terms"):
+    ...     raise InputError("unknown node", key="node", value="C")
+    Traceback (most recent call last):
+    bumpstop.errors.InputError: relations[0].terms: unknown node (got 'C')
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error
 
 
 class ComputationError(BumpstopError):

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import bumpstop as bs
-from bumpstop.errors import InputError
 
 SDNL32 = Path(__file__).parents[2] / "cases" / "sdnl32" / "case.toml"
 
@@ -32,31 +31,6 @@ duration = 1.0
 """
 
 Load = Callable[[str], bs.Case]
-
-
-@pytest.fixture
-def load(tmp_path: Path) -> Load:
-    """Load a case from its text."""
-
-    def from_text(text: str) -> bs.Case:
-        file = tmp_path / "case.toml"
-        file.write_text(text)
-        return bs.load_case(file)
-
-    return from_text
-
-
-@pytest.fixture
-def refused(load: Load) -> Callable[[str], str]:
-    """Load a case that must be refused, and return the message without the file's name."""
-
-    def message(text: str) -> str:
-        with pytest.raises(InputError) as error:
-            load(text)
-        assert error.value.file is not None
-        return str(error.value).removeprefix(f"{error.value.file}: ")
-
-    return message
 
 
 def test_defaults(load: Load, tmp_path: Path) -> None:

@@ -161,7 +161,8 @@ def _nodes(response: Response, structure: Structure, motion: FloatArray) -> Iter
     for axis, values in zip("xyz", structure.mesh.positions.T, strict=True):
         long_name = f"{axis} of the node at rest"
         yield Variable(axis, ("node",), values, {"units": "m", "long_name": long_name})
-    dofs = [dof for dof in TRANSLATIONS if (structure.free % 6 == DOFS.index(dof)).any()]
+    moving = structure.expansion.rows
+    dofs = [dof for dof in TRANSLATIONS if (moving % 6 == DOFS.index(dof)).any()]
     if not dofs:
         return
     rows = np.arange(len(nodes))[:, np.newaxis] * 6 + [DOFS.index(dof) for dof in dofs]

@@ -2,10 +2,22 @@
 
 from bumpstop.structure.beam import Beam
 from bumpstop.structure.gauge import Gauge
+from bumpstop.structure.link import RigidLink
 from bumpstop.structure.mass import PointMass
 from bumpstop.structure.material import Material
+from bumpstop.structure.relation import Relation
 from bumpstop.structure.section import Rectangle
 from bumpstop.structure.structure import Structure
 from bumpstop.structure.support import Support
 
-__all__ = ["Beam", "Gauge", "Material", "PointMass", "Rectangle", "Structure", "Support"]
+__all__ = [
+    "Beam",
+    "Gauge",
+    "Material",
+    "PointMass",
+    "Rectangle",
+    "Relation",
+    "RigidLink",
+    "Structure",
+    "Support",
+]

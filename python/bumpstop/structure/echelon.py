@@ -11,7 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 
-__all__ = ["independent_columns", "independent_rows", "null_space"]
+__all__ = ["independent_columns", "independent_rows", "null_space", "row_space"]
 
 _NEGLIGIBLE = 1e-9
 """Pivots below this are rounding; matrices must come with entries of order one."""
@@ -57,6 +57,19 @@ def independent_rows(matrix: FloatArray) -> list[int]:
     """
     _, rows, _ = _eliminated(matrix)
     return sorted(rows)
+
+
+def row_space(matrix: FloatArray) -> FloatArray:
+    """Return independent rows that span those of a matrix, as simple as elimination makes them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> row_space(np.array([[1.0, -1.0], [-1.0, 1.0]]))
+    array([[ 1., -1.]])
+    """
+    reduced, rows, _ = _eliminated(matrix)
+    return reduced[rows]
 
 
 def _eliminated(matrix: FloatArray) -> tuple[FloatArray, list[int], list[int]]:

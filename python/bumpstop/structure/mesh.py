@@ -53,6 +53,11 @@ class Mesh:
         return 6 * nodes[..., np.newaxis] + np.arange(6)
 
     @cached_property
+    def size(self) -> float:
+        """Longest side of the box around all nodes, in m; 1 where they are at one place."""
+        return float(np.ptp(self.positions, axis=0).max()) or 1.0
+
+    @cached_property
     def dofs(self) -> tuple[Dof, ...]:
         """Node and dof of each row of the matrices."""
         return tuple((node, dof) for node in self.names for dof in DOFS)

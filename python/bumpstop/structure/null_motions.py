@@ -60,7 +60,7 @@ def _combinations(stiffness: SparseMatrix, proposed: FloatArray, accuracy: float
     """Return the combinations of proposed motions that strain nothing."""
     motions = independent_columns(_unit_columns(proposed))
     forces = stiffness @ motions
-    forces[np.abs(forces) <= accuracy * (_sizes(stiffness) @ np.abs(motions))] = 0.0
+    forces[np.abs(forces) <= accuracy * (stiffness.magnitudes() @ np.abs(motions))] = 0.0
     resisting = forces[np.any(forces != 0.0, axis=1)]
     if len(resisting) == 0:
         return motions
@@ -100,10 +100,6 @@ def _unit_scale(matrix: FloatArray) -> FloatArray:
     size = np.sqrt(np.maximum(np.abs(matrix.diagonal()), np.abs(matrix).max(axis=0) * 1e-6))
     scale: FloatArray = np.exp2(-np.round(np.log2(np.where(size > 0.0, size, 1.0))))
     return scale
-
-
-def _sizes(matrix: SparseMatrix) -> SparseMatrix:
-    return SparseMatrix(matrix.shape, matrix.starts, matrix.rows, np.abs(matrix.values))
 
 
 def _unit_columns(matrix: FloatArray) -> FloatArray:

@@ -1,48 +1,134 @@
-"""The rigid motions that a structure's supports leave it, exactly."""
+"""The motions that strain nothing, exactly.
+
+Stiffness alone cannot tell a motion without any from one with very little: a soft spring under
+a stiff frame is hidden in the rounding of the assembled matrix. So the question is put to one
+part after the other. Elements that resist all but a rigid motion join their nodes to bodies;
+a node of its own is a body too. What the bodies can do, six motions each, is then cut down by
+supports, relations and the remaining elements, each in its own measure. What is left strains
+nothing: rigid motions of the whole, of pieces of it, and mechanisms.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
-from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray
+from bumpstop.structure.assembly import Block
 from bumpstop.structure.echelon import null_space
+from bumpstop.structure.elimination import Freedom
 from bumpstop.structure.frame import rigid_motions
 from bumpstop.structure.graph import components
 from bumpstop.structure.mesh import Mesh
+from bumpstop.structure.resistance import resistance
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
-__all__ = ["rigid_shapes"]
+__all__ = ["rigid_fields"]
+
+_MOST_MOTIONS = 1500
+"""Most motions of bodies that hang together and are told apart with dense matrices."""
+
+_CANCELLED = 1e-9
+"""A sum this small beside the sizes of its terms is rounding."""
 
 
-def rigid_shapes(mesh: Mesh, stiffness: SparseMatrix, free: IndexArray) -> FloatArray:
-    """Return all motions that strain nothing, (free dofs, motions).
+def rigid_fields(mesh: Mesh, blocks: Sequence[Block], freedom: Freedom) -> FloatArray:
+    """Return all motions on all dofs that strain nothing and that are free, (dofs, motions).
 
-    Each piece of the structure that hangs together has its own. They come from geometry
-    alone: the six motions of a rigid body, less those that the piece's supports forbid.
-    Every part is free in space by itself, so these are the whole null space of the stiffness
-    matrix; a part that holds on to the ground would have to count as a support here.
+    Where too many small bodies hang together (the nodes of a large truss), each connected
+    piece is taken for one body; mechanisms inside it are then not found.
     """
-    pieces = components(len(mesh.names), stiffness.rows // 6, stiffness.columns // 6)
-    held = np.ones(stiffness.shape[0], dtype=bool)
-    held[free] = False
-    shapes = [_piece_shapes(mesh, np.array(nodes), held) for nodes in pieces]
-    return np.hstack(shapes)[free]
+    parts = resistance(mesh, blocks)
+    ties = _ties(freedom)
+    for edges in (parts.rigid_edges, parts.edges):
+        motions = _body_motions(mesh, edges, freedom)
+        rows = _relative_product(ties.stacked(parts.strains), motions)
+        groups = _groups(rows)
+        if max(map(len, groups), default=0) <= _MOST_MOTIONS:
+            break
+    weights = [_null_vectors(rows, group) for group in groups]
+    return motions @ np.hstack([np.zeros((motions.shape[1], 0)), *weights])
 
 
-def _piece_shapes(mesh: Mesh, nodes: IndexArray, held: NDArray[np.bool_]) -> FloatArray:
-    """Return the rigid motions of one piece on all dofs of the structure."""
-    positions = mesh.positions[nodes]
-    dofs = mesh.dofs_of(nodes)
-    # Motions about a held node are the simplest to write: a hinge leaves a plain rotation.
-    about = positions[held[dofs][:, :3].sum(axis=1).argmax()]
-    size = _power_of_two(np.abs(positions - about).max())
-    motions = rigid_motions((positions - about) / size, np.zeros(3))
-    allowed: FloatArray = motions @ null_space(motions[held[dofs.ravel()]])
-    allowed.reshape(len(nodes), 6, -1)[:, 3:] /= size
-    shapes = np.zeros((len(held), allowed.shape[1]))
-    shapes[dofs.ravel()] = allowed
-    return shapes
+def _ties(freedom: Freedom) -> SparseMatrix:
+    """Return what supports and relations let be zero: each dependent dof less its sum."""
+    expansion = freedom.expansion
+    is_dependent = np.ones(expansion.shape[0], dtype=bool)
+    is_dependent[freedom.free] = False
+    dependent = np.flatnonzero(is_dependent)
+    row = np.cumsum(is_dependent) - 1
+    inside = is_dependent[expansion.rows]
+    return SparseMatrix.from_triplets(
+        (len(dependent), len(row)),
+        np.concatenate([np.arange(len(dependent)), row[expansion.rows[inside]]]),
+        np.concatenate([dependent, freedom.free[expansion.columns[inside]]]),
+        np.concatenate([np.ones(len(dependent)), -expansion.values[inside]]),
+    )
+
+
+def _body_motions(mesh: Mesh, edges: IndexArray, freedom: Freedom) -> SparseMatrix:
+    """Return six motions for each body of joined nodes, one a column.
+
+    They are scaled so that nothing moves by more than about one.
+    """
+    held = np.ones((len(mesh.names), 6), dtype=bool)
+    held.flat[freedom.free] = False
+    rows, columns, values = [], [], []
+    for number, body in enumerate(components(len(mesh.names), edges[:, 0], edges[:, 1])):
+        nodes = np.array(body)
+        positions = mesh.positions[nodes]
+        # Motions about a held node are the simplest to write: a hinge leaves a plain rotation.
+        about = positions[held[nodes, :3].sum(axis=1).argmax()]
+        size = _power_of_two(np.abs(positions - about).max())
+        motions = rigid_motions((positions - about) / size, np.zeros(3)).reshape(-1, 6, 6)
+        motions[:, 3:] /= size
+        node, dof, motion = np.nonzero(motions)
+        rows.append(6 * nodes[node] + dof)
+        columns.append(6 * number + motion)
+        values.append(motions[node, dof, motion])
+    return SparseMatrix.from_triplets(
+        (6 * len(mesh.names), 6 * len(rows)),
+        np.concatenate(rows),
+        np.concatenate(columns),
+        np.concatenate(values),
+    )
+
+
+def _relative_product(zeros: SparseMatrix, motions: SparseMatrix) -> SparseMatrix:
+    """Return what must be zero by the motions of the bodies, each row of order one."""
+    product = zeros.times(motions)
+    sizes = zeros.magnitudes().times(motions.magnitudes()).values
+    row_sizes = np.zeros(zeros.shape[0])
+    np.maximum.at(row_sizes, product.rows, sizes)
+    kept = np.abs(product.values) > _CANCELLED * sizes
+    rows, columns = product.rows[kept], product.columns[kept]
+    values = product.values[kept] / row_sizes[rows]
+    return SparseMatrix.from_triplets(product.shape, rows, columns, values)
+
+
+def _groups(rows: SparseMatrix) -> list[IndexArray]:
+    """Return the motions that rows couple to each other."""
+    size = rows.shape[1]
+    together = components(size + rows.shape[0], rows.columns, size + rows.rows)
+    groups = [np.array([vertex for vertex in group if vertex < size]) for group in together]
+    return [group for group in groups if len(group)]
+
+
+def _null_vectors(rows: SparseMatrix, group: IndexArray) -> FloatArray:
+    """Return weights of all motions that rows allow those of one group, (motions, vectors)."""
+    place = np.full(rows.shape[1], -1, dtype=np.intp)
+    place[group] = np.arange(len(group))
+    here = place[rows.columns] >= 0
+    used = np.zeros(rows.shape[0], dtype=bool)
+    used[rows.rows[here]] = True
+    row = np.cumsum(used) - 1
+    matrix = np.zeros((np.count_nonzero(used), len(group)))
+    matrix[row[rows.rows[here]], place[rows.columns[here]]] = rows.values[here]
+    allowed = null_space(matrix)
+    weights = np.zeros((rows.shape[1], allowed.shape[1]))
+    weights[group] = allowed
+    return weights
 
 
 def _power_of_two(size: float) -> float:

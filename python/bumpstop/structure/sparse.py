@@ -94,6 +94,68 @@ class SparseMatrix:
             (size, size), rows[inside], columns[inside], self.values[inside]
         )
 
+    def transposed(self) -> SparseMatrix:
+        """Return the transpose."""
+        return SparseMatrix.from_triplets(
+            (self.shape[1], self.shape[0]), self.columns, self.rows, self.values
+        )
+
+    def magnitudes(self) -> SparseMatrix:
+        """Return the matrix of the entries' absolute values."""
+        return SparseMatrix(self.shape, self.starts, self.rows, np.abs(self.values))
+
+    def stacked(self, below: SparseMatrix) -> SparseMatrix:
+        """Return the matrix with the rows of another one below its own."""
+        return SparseMatrix.from_triplets(
+            (self.shape[0] + below.shape[0], self.shape[1]),
+            np.concatenate([self.rows, self.shape[0] + below.rows]),
+            np.concatenate([self.columns, below.columns]),
+            np.concatenate([self.values, below.values]),
+        )
+
+    def times(self, other: SparseMatrix) -> SparseMatrix:
+        """Return the product with another sparse matrix."""
+        # Each entry (k, j) of the other adds its multiple of our column k to column j.
+        lengths = np.diff(self.starts)[other.rows]
+        ours = np.arange(lengths.sum()) + np.repeat(
+            self.starts[other.rows] - (np.cumsum(lengths) - lengths), lengths
+        )
+        return SparseMatrix.from_triplets(
+            (self.shape[0], other.shape[1]),
+            self.rows[ours],
+            np.repeat(other.columns, lengths),
+            self.values[ours] * np.repeat(other.values, lengths),
+        )
+
+    def plus(self, other: SparseMatrix) -> SparseMatrix:
+        """Return the sum with another matrix of the same shape."""
+        return SparseMatrix.from_triplets(
+            self.shape,
+            np.concatenate([self.rows, other.rows]),
+            np.concatenate([self.columns, other.columns]),
+            np.concatenate([self.values, other.values]),
+        )
+
+    def scaled(self, factor: float) -> SparseMatrix:
+        """Return the matrix times a number."""
+        return SparseMatrix(self.shape, self.starts, self.rows, factor * self.values)
+
+    def congruent(self, expansion: SparseMatrix) -> SparseMatrix:
+        """Return expansion' @ self @ expansion.
+
+        A symmetric matrix stays symmetric, and a skew-symmetric one skew-symmetric, to the bit.
+        """
+        product = expansion.transposed().times(self.times(expansion))
+        across = self.transposed()
+        if not np.array_equal(across.starts, self.starts):
+            return product
+        if not np.array_equal(across.rows, self.rows):
+            return product
+        for sign in (1.0, -1.0):
+            if np.array_equal(across.values, sign * self.values):
+                return product.plus(product.transposed().scaled(sign)).scaled(0.5)
+        return product
+
     def to_dense(self) -> FloatArray:
         """Return the matrix as a NumPy array."""
         dense = np.zeros(self.shape)

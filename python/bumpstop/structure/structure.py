@@ -9,17 +9,20 @@ from functools import cached_property
 import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, did_you_mean, one_of
-from bumpstop.errors import InputError
+from bumpstop.errors import InputError, blamed
 from bumpstop.structure.assembly import Block, Part, assembled
 from bumpstop.structure.beam import Beam
 from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.elimination import Freedom, freedom
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.frame import rigid_motions
 from bumpstop.structure.gauge import Gauge
+from bumpstop.structure.link import RigidLink
 from bumpstop.structure.mass import PointMass
 from bumpstop.structure.mesh import Mesh, user_nodes
 from bumpstop.structure.points import beam_point
-from bumpstop.structure.rigid import rigid_shapes
+from bumpstop.structure.relation import Relation
+from bumpstop.structure.rigid import rigid_fields
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 from bumpstop.structure.support import Support
 
@@ -43,6 +46,10 @@ class Structure:
         What stands between and on the nodes.
     supports
         Which dofs are held at zero.
+    relations
+        Weighted sums of dofs that stay zero.
+    links
+        Nodes that rigid bodies join.
 
     Raises
     ------
@@ -68,12 +75,21 @@ class Structure:
     beams: Sequence[Beam] = ()
     masses: Sequence[PointMass] = ()
     supports: Sequence[Support] = ()
+    relations: Sequence[Relation] = ()
+    links: Sequence[RigidLink] = ()
 
     def __post_init__(self) -> None:
-        for kind, wanted in (("beams", Beam), ("masses", PointMass), ("supports", Support)):
+        for kind, wanted in (
+            ("beams", Beam),
+            ("masses", PointMass),
+            ("supports", Support),
+            ("relations", Relation),
+            ("links", RigidLink),
+        ):
             object.__setattr__(self, kind, _all_of(kind, wanted, getattr(self, kind)))
         _refuse_twins("beams", [beam.name for beam in self.beams])
         _refuse_twins("masses", [mass.name for mass in self.masses])
+        _refuse_twins("links", [link.name for link in self.links])
         _refuse_twins("nodes", self.mesh.names)
         self._refuse_loose_nodes()
         self._refuse_massless_dofs()
@@ -91,18 +107,15 @@ class Structure:
         """Node and dof of each row."""
         return self.mesh.dofs
 
-    @cached_property
+    @property
     def free(self) -> IndexArray:
-        """Numbers of the dofs that no support holds, ascending."""
-        free = np.ones(len(self.dofs), dtype=bool)
-        for number, support in enumerate(self.supports):
-            free[support.held(self.mesh, f"supports[{number}]")] = False
-        return np.flatnonzero(free)
+        """Numbers of the independent dofs, ascending: not held, nor told by other dofs."""
+        return self._freedom.free
 
-    @cached_property
+    @property
     def expansion(self) -> SparseMatrix:
         """All dofs by the free ones, (dofs, free dofs): u = expansion @ x, with x = u[free]."""
-        return SparseMatrix.selection(len(self.dofs), self.free)
+        return self._freedom.expansion
 
     @cached_property
     def stiffness(self) -> SparseMatrix:
@@ -131,11 +144,13 @@ class Structure:
 
     def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
         """Return a matrix of all dofs as one of the free dofs, expansion' @ matrix @ expansion."""
+        if self.relations or self.links:
+            return matrix.congruent(self.expansion)
         return matrix.restricted(self.free)
 
     def rigid_shapes(self) -> FloatArray:
         """Return all motions that strain nothing, by the free dofs, (free dofs, motions)."""
-        return rigid_shapes(self.mesh, self.stiffness, self.free)
+        return rigid_fields(self.mesh, self._blocks, self._freedom)[self.free]
 
     def displacement_form(self, node: str, dof: str) -> LinearForm:
         """Return one dof of a node, or of a point along a beam, as a form of all dofs.
@@ -206,6 +221,26 @@ class Structure:
         return field
 
     @cached_property
+    def _freedom(self) -> Freedom:
+        held = np.zeros(len(self.dofs), dtype=bool)
+        for number, support in enumerate(self.supports):
+            held[support.held(self.mesh, f"supports[{number}]")] = True
+        scale = np.where(np.arange(len(held)) % 6 < 3, 1.0, 1.0 / self.mesh.size)
+        return freedom(held, self._zeros, scale)
+
+    @cached_property
+    def _zeros(self) -> list[LinearForm]:
+        """Sums of dofs that relations and links let be zero."""
+        zeros = []
+        for number, relation in enumerate(self.relations):
+            with blamed(f"relations[{number}].terms"):
+                zeros.append(relation.form(self.displacement_form))
+        for link in self.links:
+            with blamed(f"links.{link.name}.nodes"):
+                zeros.extend(link.forms(self.position, self.displacement_form))
+        return zeros
+
+    @cached_property
     def _blocks(self) -> list[Block]:
         parts: list[Part] = [*self.beams, *self.masses]
         return [part.block(self.mesh) for part in parts]
@@ -235,6 +270,8 @@ class Structure:
         attached = np.zeros(len(self.mesh.names), dtype=bool)
         for block in self._blocks:
             attached[block.dofs // 6] = True
+        for zero in self._zeros:
+            attached[zero.dofs // 6] = True
         moving = self.free // 6
         loose = moving[~attached[moving]]
         if len(loose):
@@ -244,7 +281,7 @@ class Structure:
 
     def _refuse_massless_dofs(self) -> None:
         """Raise where a dof can move that has no inertia: its acceleration has no meaning."""
-        massless = self.free[self.mass.diagonal()[self.free] <= 0.0]
+        massless = self.free[self.reduced(self.mass).diagonal() <= 0.0]
         if len(massless):
             node = self.dofs[massless[0]][0]
             dofs = ", ".join(

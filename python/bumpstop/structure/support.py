@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bumpstop.arguments import name, one_of
-from bumpstop.errors import InputError
+from bumpstop.arguments import one_of
 from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.mesh import Mesh
+from bumpstop.structure.names import names
 from bumpstop.structure.sparse import IndexArray
 
 __all__ = ["Support"]
@@ -38,10 +38,10 @@ class Support:
 
     def __post_init__(self) -> None:
         if self.nodes != "all":
-            object.__setattr__(self, "nodes", _names("nodes", self.nodes))
-        for dof in _names("fixed", self.fixed):
+            object.__setattr__(self, "nodes", names("nodes", self.nodes))
+        for dof in names("fixed", self.fixed):
             one_of("fixed", dof, DOFS)
-        object.__setattr__(self, "fixed", _names("fixed", self.fixed))
+        object.__setattr__(self, "fixed", names("fixed", self.fixed))
 
     def held(self, mesh: Mesh, key: str) -> IndexArray:
         """Return the numbers of the dofs held; ``key`` tells errors which support this is."""
@@ -51,11 +51,3 @@ class Support:
             nodes = np.array([mesh.node(node, f"{key}.nodes") for node in self.nodes])
         dofs = [DOFS.index(dof) for dof in self.fixed]
         return mesh.dofs_of(nodes)[:, dofs].ravel()
-
-
-def _names(key: str, value: object) -> tuple[str, ...]:
-    """Return one name or several as a tuple."""
-    listed = [value] if isinstance(value, str) else value
-    if not isinstance(listed, Sequence) or not listed:
-        raise InputError("must be a list of names", key=key, value=value)
-    return tuple(name(key, item) for item in listed)

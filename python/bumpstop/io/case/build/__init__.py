@@ -18,7 +18,17 @@ if TYPE_CHECKING:
 
 __all__ = ["Builder"]
 
-_STRUCTURE = ("nodes", "materials", "sections", "beams", "masses", "supports", "basis")
+_STRUCTURE = (
+    "nodes",
+    "materials",
+    "sections",
+    "beams",
+    "masses",
+    "supports",
+    "relations",
+    "links",
+    "basis",
+)
 """Tables that the modes are made of."""
 
 

@@ -1,13 +1,14 @@
-"""Nodes, beams, masses and supports."""
+"""Nodes, beams and masses."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from bumpstop.io.case.build.constraints import built_links, built_relations, built_supports
 from bumpstop.io.case.build.names import named
 from bumpstop.io.case.keys import keyed
-from bumpstop.structure import Beam, Material, PointMass, Rectangle, Structure, Support
+from bumpstop.structure import Beam, Material, PointMass, Rectangle, Structure
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.beams import BeamTable
@@ -24,14 +25,10 @@ def built_structure(case: CaseFile) -> Structure:
         masses=[
             PointMass(name, node=table.node, mass=table.mass) for name, table in case.masses.items()
         ],
-        supports=[
-            Support(nodes=_all_or(table.nodes), fixed=tuple(table.fixed)) for table in case.supports
-        ],
+        supports=built_supports(case),
+        relations=built_relations(case),
+        links=built_links(case),
     )
-
-
-def _all_or(nodes: list[str]) -> str | tuple[str, ...]:
-    return "all" if nodes == ["all"] else tuple(nodes)
 
 
 def _beams(case: CaseFile) -> list[Beam]:

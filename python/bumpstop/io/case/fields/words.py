@@ -11,7 +11,18 @@ from bumpstop.errors import InputError
 from bumpstop.io.case.fields.plain import Plain, read_list
 from bumpstop.structure.dofs import DOFS
 
-__all__ = ["BeamEnds", "Dofs", "Name", "Node", "NodeName", "Nodes", "OneDof", "Text", "choice"]
+__all__ = [
+    "BeamEnds",
+    "Dofs",
+    "LinkedNodes",
+    "Name",
+    "Node",
+    "NodeName",
+    "Nodes",
+    "OneDof",
+    "Text",
+    "choice",
+]
 
 _NAME = r"[\w-]+"
 
@@ -51,6 +62,10 @@ def _read_ends(value: object) -> tuple[str, ...]:
     return tuple(read_list(value, _read_node, "node names", length=2))
 
 
+def _read_linked(value: object) -> tuple[str, ...]:
+    return tuple(read_list(value, _read_node, "node names"))
+
+
 def choice(*words: str) -> Plain:
     """Return a field that is one of these words."""
 
@@ -81,5 +96,6 @@ NodeName = Annotated[str, Plain(_read_node_name, {**_STRING, "pattern": f"^{_NAM
 Node = Annotated[str, Plain(_read_node, {**_STRING, "examples": ["B", "AB.3", "AB@0.462 m"]})]
 Nodes = Annotated[list[str], Plain(_read_nodes, {"anyOf": [{"const": "all"}, _STRINGS]})]
 BeamEnds = Annotated[tuple[str, str], Plain(_read_ends, {**_STRINGS, "minItems": 2, "maxItems": 2})]
+LinkedNodes = Annotated[tuple[str, ...], Plain(_read_linked, {**_STRINGS, "minItems": 2})]
 OneDof = Annotated[str, choice(*DOFS)]
 Dofs = Annotated[list[str], Plain(_read_dofs, {**_STRINGS, "items": {"enum": list(DOFS)}})]

@@ -10,11 +10,13 @@ from bumpstop.io.case.tables.basis import BasisTable
 from bumpstop.io.case.tables.beams import BeamTable
 from bumpstop.io.case.tables.gauges import GaugeTable
 from bumpstop.io.case.tables.initial import InitialTable
+from bumpstop.io.case.tables.links import LinkTable
 from bumpstop.io.case.tables.loads import LoadTable
 from bumpstop.io.case.tables.masses import MassTable
 from bumpstop.io.case.tables.materials import MaterialTable
 from bumpstop.io.case.tables.outputs import OutputTable
 from bumpstop.io.case.tables.references import ReferenceTable
+from bumpstop.io.case.tables.relations import RelationTable
 from bumpstop.io.case.tables.run import RunTable
 from bumpstop.io.case.tables.sections import SectionTable
 from bumpstop.io.case.tables.stops import StopTable
@@ -38,6 +40,8 @@ class CaseFile(Table):
     beams: dict[Name, BeamTable] = Field(default={}, description="Beams, by name")
     masses: dict[Name, MassTable] = Field(default={}, description="Point masses, by name")
     supports: list[SupportTable] = Field(default=[], description="What is held, and where")
+    relations: list[RelationTable] = Field(default=[], description="Sums of dofs that stay zero")
+    links: dict[Name, LinkTable] = Field(default={}, description="Rigid links, by name")
     basis: BasisTable = Field(description="Modes of the structure")
     stops: dict[Name, StopTable] = Field(default={}, description="Stops, by name")
     loads: dict[Name, LoadTable] = Field(default={}, description="Loads, by name")

@@ -1,0 +1,45 @@
+"""What ties dofs: supports, relations and rigid links."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bumpstop.io.case.keys import keyed
+from bumpstop.structure import Relation, RigidLink, Support
+
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.case_file import CaseFile
+
+__all__ = ["built_links", "built_relations", "built_supports"]
+
+
+def built_supports(case: CaseFile) -> list[Support]:
+    """Return the supports."""
+    return [
+        Support(nodes=_all_or(table.nodes), fixed=tuple(table.fixed)) for table in case.supports
+    ]
+
+
+def built_relations(case: CaseFile) -> list[Relation]:
+    """Return the relations between dofs."""
+    relations = []
+    for number, table in enumerate(case.relations):
+        with keyed(f"relations.{number}"):
+            terms = table.terms.items()
+            relations.append(
+                Relation({(node, dof): w for node, dofs in terms for dof, w in dofs.items()})
+            )
+    return relations
+
+
+def built_links(case: CaseFile) -> list[RigidLink]:
+    """Return the rigid links."""
+    links = []
+    for name, table in case.links.items():
+        with keyed(f"links.{name}"):
+            links.append(RigidLink(name, nodes=table.nodes, dofs=table.dofs))
+    return links
+
+
+def _all_or(nodes: list[str]) -> str | tuple[str, ...]:
+    return "all" if nodes == ["all"] else tuple(nodes)
