@@ -52,8 +52,8 @@ class Gravity:
         InputError
             If the basis was not made from a structure, so that it has no mass matrix.
         """
-        if basis.structure is None or basis.mass_rows is None:
+        if basis.model is None or basis.mass_rows is None:
             hint = "give a NodalForce, or make the basis from a structure"
             raise InputError("needs the masses of a structure", key="acceleration", hint=hint)
-        field = basis.structure.rigid_field(translation=self.acceleration)
+        field = basis.model.rigid_field(translation=self.acceleration)
         return basis.mass_rows @ field

@@ -13,7 +13,7 @@ from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
-    from bumpstop.structure.structure import Structure
+    from bumpstop.structure.model import LinearModel
 
 __all__ = ["ModalState", "RigidRotation"]
 
@@ -106,20 +106,20 @@ class RigidRotation:
             If the basis was not made from a structure, the structure has no such node, or no
             mode takes part in the rotation.
         """
-        if basis.structure is None:
+        if basis.model is None:
             hint = "give a ModalState, or make the basis from a structure"
             raise InputError("needs a structure to turn", key="about", value=self.about, hint=hint)
-        centre = _position(basis.structure, self.about)
-        field = basis.structure.rigid_field(rotation=self.rate, about=centre)
+        centre = _position(basis.model, self.about)
+        field = basis.model.rigid_field(rotation=self.rate, about=centre)
         velocity = basis.project_field(field)
         if any(self.rate) and not velocity.any():
             raise InputError("no mode takes part in this rotation", key="rate", value=self.rate)
         return np.zeros(len(velocity)), velocity
 
 
-def _position(structure: Structure, about: str) -> Vector:
+def _position(model: LinearModel, about: str) -> Vector:
     try:
-        return structure.position(about)
+        return model.position(about)
     except InputError as error:
         raise InputError(error.what, key="about", value=about, hint=error.hint) from error
 

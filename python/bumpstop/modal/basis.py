@@ -18,7 +18,7 @@ from bumpstop.modal.projected import projected
 from bumpstop.modal.vectors import canonical_vectors
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.gauge import Gauge
-from bumpstop.structure.model import LinearModel
+from bumpstop.structure.model import LinearModel, StrainModel
 from bumpstop.structure.structure import Structure
 
 __all__ = ["ModalBasis"]
@@ -290,8 +290,8 @@ class ModalBasis:
         InputError
             If the node or dof is unknown, or the basis has no shape for it.
         """
-        if self.structure is not None:
-            return self.structure.displacement_form(node, dof).of(self.shapes)
+        if self.model is not None:
+            return self.model.displacement_form(node, dof).of(self.shapes)
         number = self._rows.get((node, one_of("dof", dof, DOFS)))
         if number is not None:
             own: FloatArray = self.shapes[number].copy()
@@ -311,9 +311,9 @@ class ModalBasis:
         InputError
             If the gauge is not on a beam of the structure, or the basis has no structure.
         """
-        if self.structure is None:
+        if not isinstance(self.model, StrainModel):
             raise InputError("a gauge needs a basis computed from a structure", value=gauge.name)
-        return self.structure.strain_form(gauge).of(self.shapes)
+        return self.model.strain_form(gauge).of(self.shapes)
 
     def project_field(self, field: FloatArray) -> FloatArray:
         """Return the modal coordinates nearest to a field in the norm of the mass matrix.

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from bumpstop.arguments import FloatArray, Vector
 from bumpstop.structure.dofs import Dof
 from bumpstop.structure.forms import LinearForm
+from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
-__all__ = ["LinearModel"]
+__all__ = ["LinearModel", "StrainModel"]
 
 
 class LinearModel(Protocol):
@@ -62,3 +63,20 @@ class LinearModel(Protocol):
 
     def position(self, node: str) -> Vector:
         """Return where a node is at rest, in m."""
+
+    def rigid_field(
+        self,
+        *,
+        translation: Vector = (0.0, 0.0, 0.0),
+        rotation: Vector = (0.0, 0.0, 0.0),
+        about: Vector = (0.0, 0.0, 0.0),
+    ) -> FloatArray:
+        """Return a small rigid motion of all dofs, those that are held too, (dofs,)."""
+
+
+@runtime_checkable
+class StrainModel(Protocol):
+    """What a model must offer beside, so that gauges can be read: it has beams."""
+
+    def strain_form(self, gauge: Gauge) -> LinearForm:
+        """Return a gauge's axial strain as a form of all dofs."""
