@@ -1,4 +1,5 @@
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -58,8 +59,16 @@ def test_fixed_steps_approach_the_exact_solution(method: str) -> None:
     [
         ({"method": "exakt"}, "method", "did you mean 'exact'"),
         ({"method": None}, "method", "unknown method"),
-        ({"method": "exact", "dt": 1e-4}, "dt", "takes no step.*leave it out"),
-        ({"dt": 1e-4}, "dt", "takes no step"),
+        ({"method": "exact", "dt": 1e-4}, "dt", "of the exact method.*dt is for symplectic_euler"),
+        ({"dt": 1e-4}, "dt", "no option of the exact method .got 0.0001.; it takes progress; dt"),
+        ({"beyond_stability_limit": True}, "beyond_stability_limit", "no option of the exact"),
+        ({"rtol": 1e-6}, "rtol", "no option of the exact method .got 1e-06.; known: progress"),
+        (
+            {"method": "central_difference", "rtol": 1e-6},
+            "rtol",
+            "no option of the central_difference method.*; known: dt, beyond_stability_limit, ",
+        ),
+        ({"method": "central_difference", "dtt": 1e-4}, "dtt", "did you mean 'dt'"),
         ({"method": "central_difference"}, "dt", "needs a step.*stable up to"),
         ({"method": "symplectic_euler", "dt": 0.0}, "dt", "must be positive"),
         ({"method": "symplectic_euler", "dt": math.nan}, "dt", "must be finite"),
@@ -73,6 +82,12 @@ def test_refuses(options: dict[str, Any], key: str, what: str) -> None:
     with pytest.raises(bs.InputError, match=what) as caught:
         bs.simulate(problem(), **options)
     assert caught.value.key == key
+
+
+def test_a_case_is_no_problem() -> None:
+    case = bs.load_case(Path(__file__).parents[1] / "cases" / "sdnl32" / "case.toml")
+    with pytest.raises(bs.InputError, match="must be a Problem.*take one of its problems"):
+        bs.simulate(case)  # type: ignore[arg-type]
 
 
 def test_the_stability_limit_is_that_of_the_closed_stop() -> None:

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from bumpstop import _core
-from bumpstop.arguments import one_of, positive
+from bumpstop.arguments import did_you_mean, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import ComputationError, InputError
+from bumpstop.problem import Problem
 from bumpstop.response import Response
-
-if TYPE_CHECKING:
-    from bumpstop.problem import Problem
 
 __all__ = ["METHODS", "simulate"]
 
 FIXED_STEP_METHODS = ("symplectic_euler", "central_difference")
 METHODS = ("auto", "exact", *FIXED_STEP_METHODS)
+OPTIONS: dict[str, tuple[str, ...]] = {
+    "exact": (),
+    **dict.fromkeys(FIXED_STEP_METHODS, ("dt", "beyond_stability_limit")),
+}
+"""What each method can be told."""
 MOST_STEPS = 1e9
 
 
@@ -28,6 +30,7 @@ def simulate(
     dt: float | None = None,
     beyond_stability_limit: bool = False,
     progress: Callable[[float], None] | None = None,
+    **unknown: object,
 ) -> Response:
     """Compute how the structure moves.
 
@@ -45,6 +48,8 @@ def simulate(
         Allow a step above the method's stability limit.
     progress
         Called with the fraction done, between 0 and 1, about ten times a second.
+    unknown
+        Refused, with what the method does take.
 
     Returns
     -------
@@ -54,7 +59,8 @@ def simulate(
     Raises
     ------
     InputError
-        If the method is unknown, a step is missing, refused, out of range or unstable.
+        If the method is unknown or does not take an option that is given, or a step is
+        missing, out of range or unstable.
     ComputationError
         If the computation could not be finished.
 
@@ -71,8 +77,12 @@ def simulate(
     >>> print(f"{response.impact_table()['start'][0]:.12f}")
     0.451523640986
     """
+    if not isinstance(problem, Problem):
+        hint = "of a case, take one of its problems"
+        raise InputError("must be a Problem", key="problem", value=problem, hint=hint)
     one_of("method", method, METHODS)
     chosen, reason = _choose(method)
+    _check_options(chosen, unknown, dt=dt, beyond_stability_limit=beyond_stability_limit or None)
     model = _model(problem)
     step = _checked_step(chosen, dt, problem.duration, model, beyond_stability_limit)
     try:
@@ -100,6 +110,21 @@ def _choose(method: str) -> tuple[str, str]:
     return method, "asked for"
 
 
+def _check_options(method: str, unknown: dict[str, object], **known: object) -> None:
+    """Refuse what the method does not take. Known options are None where they are not given."""
+    takes = (*OPTIONS[method], "progress")
+    given = {name: value for name, value in known.items() if value is not None} | unknown
+    for name in [name for name in given if name not in takes]:
+        takers = [other for other, options in OPTIONS.items() if name in options]
+        hint = f"it takes {', '.join(takes)}; {name} is for {' and '.join(takers)}"
+        raise InputError(
+            f"is no option of the {method} method",
+            key=name,
+            value=given[name],
+            hint=hint if takers else did_you_mean(name, takes),
+        )
+
+
 def _model(problem: Problem) -> CanonicalForm:
     try:
         return canonical_form(problem)
@@ -111,9 +136,6 @@ def _checked_step(
     method: str, dt: float | None, duration: float, model: CanonicalForm, beyond_limit: bool
 ) -> float | None:
     if method not in FIXED_STEP_METHODS:
-        if dt is not None:
-            hint = f"leave it out, or choose {' or '.join(FIXED_STEP_METHODS)}"
-            raise InputError(f"the {method} method takes no step", key="dt", value=dt, hint=hint)
         return None
     limit = _core.stability_limit(model.system, model.laws, method)
     if dt is None:
