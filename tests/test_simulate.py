@@ -86,7 +86,7 @@ def test_refuses(options: dict[str, Any], key: str, what: str) -> None:
 
 def test_a_case_is_no_problem() -> None:
     case = bs.load_case(Path(__file__).parents[1] / "cases" / "sdnl32" / "case.toml")
-    with pytest.raises(bs.InputError, match="must be a Problem.*take one of its problems"):
+    with pytest.raises(bs.InputError, match=r"must be a Problem.*take one of its problems"):
         bs.simulate(case)  # type: ignore[arg-type]
 
 

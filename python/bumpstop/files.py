@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+import platform
+import re
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from itertools import count
@@ -10,7 +13,7 @@ from pathlib import Path
 
 from bumpstop.errors import InputError
 
-__all__ = ["written_whole"]
+__all__ = ["remove_leftovers", "temporary_name", "written_whole"]
 
 _numbers = count()
 
@@ -39,8 +42,7 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     final = Path(path)
     if final.is_dir():
         raise InputError("is a folder", file=str(final), hint="give the name of a file in it")
-    # In the same folder, since a rename is only atomic within one file system.
-    part = final.with_name(f".{final.name}.{os.getpid()}-{next(_numbers)}.part")
+    part = temporary_name(final)
     try:
         part.touch()
         yield part
@@ -51,3 +53,51 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+def temporary_name(final: Path) -> Path:
+    """Return a hidden name beside a file or folder that is to be renamed to it once complete.
+
+    It lies in the same folder, since a rename is only atomic within one file system, and tells
+    which process of which machine writes there.
+    """
+    return final.with_name(f"{_prefix(final)}{os.getpid()}-{next(_numbers)}.part")
+
+
+def remove_leftovers(final: Path) -> None:
+    """Remove what killed processes have left under temporary names of a file or folder.
+
+    Those of living processes stay, and so do those of other machines, of which nobody knows.
+    It looks through the whole folder: once for a run, not once for each of many files.
+    """
+    if not final.parent.is_dir():
+        return
+    written = re.compile(re.escape(_prefix(final)) + r"(\d{1,9})-\d+\.part")
+    for found in final.parent.iterdir():
+        writer = written.fullmatch(found.name)
+        if writer and not _is_alive(int(writer[1])):
+            _remove(found)
+
+
+def _prefix(final: Path) -> str:
+    return f".{final.name}.{platform.node()}-"
+
+
+def _is_alive(process: int) -> bool:
+    if os.name != "posix":  # elsewhere there is no signal that does nothing
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:  # it belongs to somebody else
+        return True
+    return True
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        with suppress(OSError):
+            path.unlink()

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from bumpstop.cli.solve import CaseResult
 from bumpstop.errors import InputError
+from bumpstop.files import remove_leftovers, temporary_name
 
 __all__ = ["check_writable", "write_outputs", "write_report_alone"]
 
@@ -72,11 +73,15 @@ def _write_report(result: CaseResult, folder: Path) -> None:
 
 @contextmanager
 def _all_or_nothing(folder: Path) -> Iterator[Path]:
-    """Give a folder beside the wanted one; its files move over once all are complete."""
+    """Give a temporary folder; its files move over to the wanted one once all are complete."""
     target = folder.absolute()
     missing = [parent for parent in target.parents if not parent.exists()]
-    staging = target.parent / f".{target.name}.{os.getpid()}.part"
+    # Within a folder that exists: what is beside it may be another disk, or closed to us.
+    beside, within = target, target / "results"
+    staging = temporary_name(within if target.exists() else beside)
     try:
+        remove_leftovers(beside)
+        remove_leftovers(within)
         staging.mkdir(parents=True)
         yield staging
         _move_over(staging, target)
