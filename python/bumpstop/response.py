@@ -85,6 +85,23 @@ class Response:
         return self.history.steps
 
     @property
+    def certified_steps(self) -> int | None:
+        """Steps within which the method has proved that no contact was missed.
+
+        All of the exact method; None for methods that prove nothing.
+        """
+        return None if self.missed_penetration is None else self.steps
+
+    @property
+    def missed_penetration(self) -> float | None:
+        """Depth in m that no contact which the method has missed can have exceeded.
+
+        The exact method misses none but for rounding, and this is a bound of its rounding;
+        None for methods without such a bound.
+        """
+        return self.history.missed_penetration
+
+    @property
     def event_count(self) -> int:
         """How many times a law switched."""
         return self.history.event_count

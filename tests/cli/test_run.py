@@ -1,6 +1,7 @@
 """``bumpstop run``: what it prints, writes and returns."""
 
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -77,6 +78,8 @@ def test_json(call: Output) -> None:
             "name",
             "method",
             "steps",
+            "certified_steps",
+            "missed_penetration",
             "events",
             "impacts",
             "energy_residual",
@@ -86,6 +89,7 @@ def test_json(call: Output) -> None:
         }
         assert (variant["method"], variant["passed"]) == ("symplectic_euler", True)
         assert (variant["steps"], variant["events"], variant["impacts"]) == (2000, 1, 1)
+        assert (variant["certified_steps"], variant["missed_penetration"]) == (None, None)
         assert 0 < variant["solve_seconds"] < 1
         assert len(variant["references"]) == 12
     check = record["variants"][0]["references"][2]
@@ -119,15 +123,51 @@ def test_a_failed_check_is_status_1(call: Output, strict: Path) -> None:
     assert record["passed"] is False
 
 
-def test_what_is_not_a_number_is_null_in_json(call: Output, tmp_path: Path) -> None:
+def test_the_exact_method_says_what_it_has_proved(call: Output) -> None:
+    _, output, _ = call("run", str(SDNL32), "--json")
+    for variant in json.loads(output)["variants"]:
+        assert variant["certified_steps"] == variant["steps"] > 0
+        assert 0.0 < variant["missed_penetration"] < 1e-14
+    _, output, _ = call("run", str(SDNL32))
+    proved = r"  certified: no contact deeper than \d\.\de-1\d m can have been missed\n"
+    assert len(re.findall(proved, output)) == 2
+
+
+@pytest.fixture
+def without_values(tmp_path: Path) -> Path:
+    """Return a case with references to a seventh impact, and to the end of one that goes on."""
+    lines = [SDNL32.read_text().replace("duration = 0.02 ", "duration = 0.012 ")]
+    for quantity, impact in (("peak_force", 7), ("impact_end", 1)):
+        lines += ["[[references]]", 'variant = "soft"', f'quantity = "{quantity}"']
+        lines += ['stop = "spring"', f"impact = {impact}", "values = [1]", "absolute_tolerance = 0.1"]
     file = tmp_path / "case.toml"
-    text = SDNL32.read_text()
-    missed = 'quantity = "peak_force"\nstop = "spring"\nimpact = 7\nvalues = [1]\ntolerance = 1\n'
-    file.write_text(text + "\n[[references]]\n" + missed)
-    status, output, _ = call("run", str(file), "--method", "symplectic_euler", "--json")
-    check = json.loads(output, parse_constant=pytest.fail)["variants"][0]["references"][-1]
+    file.write_text("\n".join(lines))
+    return file
+
+
+def test_what_has_no_value_is_null_in_json(call: Output, without_values: Path) -> None:
+    status, output, _ = call("run", str(without_values), "--json")
+    *_, absent, open_end = json.loads(output, parse_constant=pytest.fail)["variants"][0][
+        "references"
+    ]
     assert status == 1
-    assert (check["value"], check["deviation"], check["passed"]) == (None, None, False)
+    assert [absent[key] for key in ("time", "value", "deviation", "passed")] == [None] * 3 + [False]
+    assert open_end["time"] == 0.0
+    assert [open_end[key] for key in ("value", "deviation", "passed")] == [None, None, False]
+
+
+def test_what_has_no_value_is_told_in_words(
+    call: Output, without_values: Path, tmp_path: Path
+) -> None:
+    status, output, error = call("run", str(without_values), "--out", str(tmp_path / "out"))
+    assert (status, error) == (1, "")
+    rows = [line.split() for line in output.splitlines()]
+    assert ["-", "1", "no", "such", "impact", "-", "0.1", "NO"] in rows
+    assert ["0", "1", "still", "closed", "-", "0.1", "NO"] in rows
+    assert "nan" not in output
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert ">no such impact<" in page
+    assert ">still closed<" in page
 
 
 def test_outputs(call: Output, tmp_path: Path) -> None:

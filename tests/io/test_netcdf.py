@@ -118,9 +118,20 @@ def test_the_file_says_where_it_comes_from(path: Path, thrown_beam: bs.Response)
     assert told["bumpstop_version"] == bs.__version__
     assert (told["method"], told["method_dt"]) == ("central_difference", 1e-5)
     assert told["steps"] == 2000
+    assert "missed_penetration" not in told
     assert told["energy_residual"] == thrown_beam.energy_residual
     age = dt.datetime.now(dt.UTC) - dt.datetime.fromisoformat(told["date_created"])
     assert dt.timedelta(seconds=-1) < age < dt.timedelta(minutes=5)
+
+
+def test_the_exact_method_leaves_its_certificate(tmp_path: Path, thrown_beam: bs.Response) -> None:
+    response = bs.simulate(thrown_beam.problem)
+    response.to_netcdf(tmp_path / "exact.nc")
+    with xr.open_dataset(tmp_path / "exact.nc", engine="h5netcdf") as file:
+        assert file.attrs["certified_steps"] == response.steps
+        assert file.attrs["missed_penetration"] == response.missed_penetration
+    assert response.missed_penetration is not None
+    assert 0.0 < response.missed_penetration < 1e-14
 
 
 def test_h5py_finds_dimensions_tied_to_scales(path: Path) -> None:

@@ -25,6 +25,8 @@ def _variant_record(variant: VariantResult) -> dict[str, Any]:
         "name": variant.name,
         "method": response.method,
         "steps": response.steps,
+        "certified_steps": response.certified_steps,
+        "missed_penetration": response.missed_penetration,
         "events": response.event_count,
         "impacts": len(response.impact_table()["start"]),
         "energy_residual": response.energy_residual,

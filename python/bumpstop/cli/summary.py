@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
+from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,8 @@ def print_summary(result: CaseResult, record: dict[str, Any], out: Path | None) 
             print_line(f"  {caption}")
             print_table(table)
         print_line(f"  {_how(numbers)}")
+        if variant.response.problem.laws and numbers["certified_steps"] is not None:
+            print_line(f"  {_certificate(numbers)}")
         print_line(f"  {verdict(variant.checks)}", style="green" if variant.passed else "bold red")
     if out is not None:
         print_line()
@@ -58,6 +61,11 @@ def _how(numbers: dict[str, Any]) -> str:
         f"energy residual {numbers['energy_residual']:.1e}, "
         f"solved in {_duration(numbers['solve_seconds'])}"
     )
+
+
+def _certificate(numbers: dict[str, Any]) -> str:
+    depth = numbers["missed_penetration"]
+    return f"certified: no contact deeper than {depth:.1e} m can have been missed"
 
 
 def _many(count: int, thing: str) -> str:
@@ -90,14 +98,20 @@ def _table(checks: list[Check]) -> Table:
 
 def _row(check: Check) -> tuple[str, ...]:
     return (
-        f"{check.time:.6g}",
-        f"{check.reference:.6g}",
-        f"{check.value:.6g}",
+        _number(check.time),
+        _number(check.reference),
+        check.missing or _number(check.value),
         _deviation(check.deviation, check.absolute),
         _deviation(check.tolerance, check.absolute),
         "yes" if check.passed else "NO",
     )
 
 
+def _number(value: float) -> str:
+    return "-" if isnan(value) else f"{value:.6g}"
+
+
 def _deviation(value: float, absolute: bool) -> str:
+    if isnan(value):
+        return "-"
     return f"{value:.3g}" if absolute else f"{100 * value:.3g} %"

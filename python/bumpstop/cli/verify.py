@@ -56,7 +56,7 @@ def _table(results: Sequence[CaseResult]) -> Table:
 
 
 def _row(result: CaseResult, variant: VariantResult) -> tuple[str, ...]:
-    worst = max((check.deviation / check.tolerance for check in variant.checks), default=None)
+    worst = max((check.tolerance_used for check in variant.checks), default=None)
     return (
         result.case.name,
         variant.name,

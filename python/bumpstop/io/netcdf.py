@@ -224,6 +224,8 @@ def _provenance(response: Response) -> dict[str, Any]:
         "method_reason": response.method_reason,
         **{f"method_{option}": value for option, value in response.options.items()},
         "steps": response.steps,
+        "certified_steps": response.certified_steps,
+        "missed_penetration": response.missed_penetration,
         "event_count": response.event_count,
         "energy_residual": response.energy_residual,
         "solve_seconds": response.solve_seconds,

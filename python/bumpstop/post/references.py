@@ -156,7 +156,8 @@ class Check:
     ``deviation`` is the size of the difference, relative to that of the reference, or in the
     quantity's unit where the tolerance is ``absolute``. ``time`` is in s; for a quantity of an
     impact it is the instant of closing. Where there is no such impact, ``value``,
-    ``deviation`` and ``time`` are NaN, and a NaN never passes.
+    ``deviation`` and ``time`` are NaN; where it has not ended yet, ``value`` and ``deviation``
+    may be. A NaN never passes.
     """
 
     quantity: str
@@ -170,6 +171,22 @@ class Check:
     absolute: bool
     passed: bool
     source: str
+
+    @property
+    def missing(self) -> str:
+        """Why there is no computed value; empty where there is one."""
+        if not math.isnan(self.value):
+            return ""
+        return "no such impact" if math.isnan(self.time) else "still closed"
+
+    @property
+    def tolerance_used(self) -> float:
+        """The deviation as a fraction of the tolerance, infinite where nothing can meet it."""
+        if math.isnan(self.deviation):
+            return math.inf
+        if self.tolerance == 0.0:
+            return 0.0 if self.deviation == 0.0 else math.inf
+        return self.deviation / self.tolerance
 
 
 def check_references(response: Response, references: Iterable[Reference]) -> list[Check]:

@@ -40,7 +40,7 @@ def verdict(checks: Sequence[Check]) -> Verdict:
 
 def worst(checks: Sequence[Check]) -> Check | None:
     """Return the check that comes closest to its tolerance, or goes furthest beyond it."""
-    return max(checks, key=_use_of_tolerance, default=None)
+    return max(checks, key=lambda check: check.tolerance_used, default=None)
 
 
 def deviation_told(check: Check, *, sign: bool = False) -> str:
@@ -84,7 +84,7 @@ def _series(checks: Sequence[Check]) -> dict[str, Any]:
                 check,
                 significant(check.time * clock.factor, 6, zeros=False),
                 significant(check.reference * scale.factor, 6, zeros=False),
-                scale.show(check.value, 5),
+                check.missing or scale.show(check.value, 5),
             )
             for check in checks
         ],
@@ -99,7 +99,7 @@ def _single_values(checks: Sequence[Check]) -> dict[str, Any]:
         if check.quantity not in IMPACT_COLUMNS:
             label += f" at {with_unit(check.time, 's', 6)}"
         reference = significant(check.reference * scale.factor, 6, zeros=False)
-        value = f"{scale.show(check.value, 6)} {scale.unit}"
+        value = check.missing or f"{scale.show(check.value, 6)} {scale.unit}"
         rows.append(_row(check, label, f"{reference} {scale.unit}", value))
     return {"title": "Single values", "heading": "Quantity", "unit": "", "rows": rows}
 
@@ -109,7 +109,7 @@ def _unit(check: Check) -> str:
 
 
 def _row(check: Check, label: str, reference: str, value: str) -> dict[str, Any]:
-    used = float(np.clip(np.copysign(_use_of_tolerance(check), _signed(check)), -1.0, 1.0))
+    used = float(np.clip(np.copysign(check.tolerance_used, _signed(check)), -1.0, 1.0))
     return {
         "label": label,
         "reference": reference,
@@ -125,11 +125,3 @@ def _row(check: Check, label: str, reference: str, value: str) -> dict[str, Any]
 def _signed(check: Check) -> float:
     """Return how far a computed value lies above (+) or below (-) the published one."""
     return float(np.copysign(check.deviation, check.value - check.reference))
-
-
-def _use_of_tolerance(check: Check) -> float:
-    if np.isnan(check.deviation):
-        return np.inf
-    if check.tolerance == 0.0:
-        return 0.0 if check.deviation == 0.0 else np.inf
-    return check.deviation / check.tolerance

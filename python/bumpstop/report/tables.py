@@ -53,6 +53,10 @@ def facts(
         deviation = deviation_told(furthest)
         allowed = f"{tolerance_told(furthest)} allowed"
         told.append(("Worst against its tolerance", deviation, allowed))
+    bounds = [r.missed_penetration for r in responses.values() if r.problem.laws]
+    proved = [bound for bound in bounds if bound is not None]
+    if proved and len(proved) == len(bounds):
+        told.append(("Missed contacts", "none", f"deeper than {power_of_ten(max(proved))} m"))
     residual = max(response.energy_residual for response in responses.values())
     told.append(("Energy residual", power_of_ten(residual), "of the largest energy"))
     runs = len(responses)
