@@ -139,7 +139,12 @@ def without_values(tmp_path: Path) -> Path:
     lines = [SDNL32.read_text().replace("duration = 0.02 ", "duration = 0.012 ")]
     for quantity, impact in (("peak_force", 7), ("impact_end", 1)):
         lines += ["[[references]]", 'variant = "soft"', f'quantity = "{quantity}"']
-        lines += ['stop = "spring"', f"impact = {impact}", "values = [1]", "absolute_tolerance = 0.1"]
+        lines += [
+            'stop = "spring"',
+            f"impact = {impact}",
+            "values = [1]",
+            "absolute_tolerance = 0.1",
+        ]
     file = tmp_path / "case.toml"
     file.write_text("\n".join(lines))
     return file
