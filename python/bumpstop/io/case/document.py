@@ -82,8 +82,8 @@ def _parsed(text: str) -> dict[str, Any]:
         raise _syntax_error(str(error)) from error
     except RecursionError as error:
         raise InputError("is nested too deeply") from error
-    except ValueError as error:  # an integer of thousands of digits, an impossible date
-        raise InputError(f"is not TOML: {error}") from error
+    except ValueError as error:  # Python refuses to read an integer of thousands of digits
+        raise _too_many_digits(text) from error
     for path, number in _numbers(document, ()):
         _check_number(path, number)
     return document
@@ -97,6 +97,14 @@ def _syntax_error(message: str) -> InputError:
         key=place[1] if place else None,
         hint="texts and units need quotes" if what.startswith(_UNQUOTED) else None,
     )
+
+
+def _too_many_digits(text: str) -> InputError:
+    longest = max(re.finditer(r"[\d_]+", text), key=lambda found: len(found[0]))
+    line = text.count("\n", 0, longest.start()) + 1
+    digits = len(longest[0].replace("_", ""))
+    what = f"a whole number of {digits:,} digits is too large"
+    return InputError(what, key=f"line {line}", hint="write it as a real one, like 1e20")
 
 
 def _numbers(value: object, path: KeyPath) -> Iterator[tuple[KeyPath, float]]:
