@@ -69,7 +69,7 @@ def test_what_is_mutated_is_good(tmp_path: Path, capsys: pytest.CaptureFixture[s
         (b"title = 'a'\n[nodes]\nA = [0.0, 0.0\n", "is not TOML: unclosed array"),
         (b"[stops.spring]\nstiffness = 18 kN/m\n", "line 2, column 16: is not TOML"),
         (b"a = " + b"[" * 5000, "is nested too deeply"),
-        (b"\na = -" + b"9_" * 4999 + b"9", "line 2: a whole number of 5,000 digits is too large; write"),
+        (b"\na = -" + b"9_" * 4999 + b"9", "line 2: a whole number of 5,000 digits is too large"),
         (b"a = 0x" + b"f" * 5000, "a: is too large for a whole number"),
         (b"nodes = 3\n", "nodes: must be a table (got 3); begin it with [nodes]"),
         (b"supports = {}\n", "supports: must be a list of tables (got {}); begin each with"),
