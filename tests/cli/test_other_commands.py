@@ -72,7 +72,7 @@ def test_verify(cases: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_verify_by_name(cases: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["verify", "good", "--cases", str(cases), "--json"]) == 0
+    assert main(["verify", "--json", "good", "--cases", str(cases)]) == 0
     record = json.loads(capsys.readouterr().out)
     assert record["passed"] is True
     assert [case["case"] for case in record["cases"]] == ["good"]

@@ -299,13 +299,18 @@ def test_ctrl_c(call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["run"], "Missing argument 'CASE.toml'"),
-        (["run", str(SDNL32), "--mehtod", "exact"], "No such option: --mehtod"),
-        (["run", str(SDNL32), "--method"], "Option '--method' requires an argument"),
+        (["run"], "the following arguments are required: CASE.toml; see 'bumpstop run --help'"),
+        (
+            ["run", str(SDNL32), "--mehtod", "exact"],
+            "'--mehtod'; did you mean '--method'?",
+        ),
+        (["run", str(SDNL32), "--outt=x"], "there is no option '--outt'; did you mean '--out'"),
+        (["run", str(SDNL32), "--method"], "argument --method: expected one argument; see 'bump"),
         (["run", str(SDNL32), "--method", "rk4"], "--method: unknown method (got 'rk4'); known:"),
         (["run", str(SDNL32), "--method", "exakt"], "did you mean 'exact'?"),
-        (["rnu", str(SDNL32)], "No such command 'rnu'"),
-        (["run", str(SDNL32), "more"], "unexpected extra argument"),
+        (["rnu", str(SDNL32)], "there is no command 'rnu'; did you mean 'run'?"),
+        (["--versoin"], "there is no option '--versoin'; did you mean '--version'?"),
+        (["run", str(SDNL32), "more"], "one argument too many, 'more'; see 'bumpstop run --help'"),
     ],
 )
 def test_wrong_arguments(arguments: list[str], says: str, call: Output) -> None:
@@ -337,3 +342,7 @@ def test_version_and_help(call: Output) -> None:
         status, output, _ = call(*arguments)
         assert status == 0
         assert all(word in output for word in ("run", "modes", "verify", "report", "schema"))
+    for arguments in (["run", "--help"], ["run", str(SDNL32), "-h"]):
+        status, output, _ = call(*arguments)
+        assert status == 0
+        assert all(word in output for word in ("CASE.toml", "--method M", "--out DIR", "--json"))

@@ -1,124 +1,226 @@
 """The commands and their options. Each command's work is in the file of its name.
 
-A command gives its job back instead of doing it, so that nothing that goes wrong in it is
-taken for a mistake in the arguments.
+Reading the arguments does nothing yet: it gives the work back, so that what goes wrong in it is
+never taken for a mistake in the arguments. A command's module is imported by its work.
 """
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
+from argparse import ArgumentParser, BooleanOptionalAction, Namespace
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import NoReturn, TypeAlias
 
-import typer
+from bumpstop.arguments import did_you_mean
+from bumpstop.cli.console import print_line
+from bumpstop.errors import InputError
 
-__all__ = ["Job", "app"]
+__all__ = ["Job", "job"]
 
 Job: TypeAlias = Callable[[], int]
 """What a command does; it returns the exit status."""
 
-# Help is dressed up by rich on a terminal; loading rich for anything else would cost time.
-_MARKUP: Literal["rich"] | None = "rich" if sys.stdout.isatty() else None
-
-app = typer.Typer(
-    add_completion=False,
-    rich_markup_mode=_MARKUP,
-    pretty_exceptions_enable=False,
-    help="How flexible structures vibrate when they hit stops.",
-)
-
-CasePath = Annotated[Path, typer.Argument(metavar="CASE.toml", help="The case file.")]
-Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
-Method = Annotated[
-    str | None,
-    typer.Option(
-        "--method", metavar="M", help="How to integrate time; the case's own if left out."
-    ),
-]
+PROGRAM = "bumpstop"
+WHAT_IT_IS = "How flexible structures vibrate when they hit stops."
 
 
-def _print_version(wanted: bool) -> None:
-    if wanted:
-        from bumpstop import __version__
+def job(words: Sequence[str]) -> Job:
+    """Return what a command line asks for.
 
-        typer.echo(f"bumpstop {__version__}")
-        raise typer.Exit
+    Parameters
+    ----------
+    words
+        The command and its arguments, at least one word.
+
+    Raises
+    ------
+    InputError
+        If there is no such command, or it does not take these arguments.
+    """
+    command, *arguments = words
+    if command in ("-h", "--help"):
+        return _print_overview
+    if command == "--version":
+        return _print_version
+    if command not in COMMANDS:
+        kind = "option" if command.startswith("-") else "command"
+        hint = did_you_mean(command, (*COMMANDS, "--help", "--version", "--debug"))
+        raise InputError(f"there is no {kind} {command!r}", hint=hint)
+    parser = _parser(command)
+    if not {"-h", "--help"}.isdisjoint(arguments):
+        return partial(_print_help, parser)
+    given, unknown = parser.parse_known_intermixed_args(arguments)
+    if unknown:
+        parser.refuse(unknown[0])
+    return partial(parser.work, given)
 
 
-@app.callback()
-def _common(
-    _version: Annotated[
-        bool,
-        typer.Option(
-            "--version", is_eager=True, callback=_print_version, help="Print the version."
-        ),
-    ] = False,
-    _debug: Annotated[
-        bool, typer.Option("--debug", help="Show where in the program an error arose.")
-    ] = False,
-) -> None:
-    pass
+class _Parser(ArgumentParser):
+    """Reads the arguments of one command, and raises what is wrong with them."""
+
+    work: Callable[[Namespace], int]
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(message, hint=f"see '{self.prog} --help'")
+
+    def refuse(self, word: str) -> NoReturn:
+        """Raise the error for a word that is neither an argument nor an option."""
+        if not word.startswith("-"):
+            self.error(f"there is one argument too many, {word!r}")
+        options = [option for option in self._option_string_actions if option.startswith("--")]
+        name = word.partition("=")[0]
+        raise InputError(f"there is no option {name!r}", hint=did_you_mean(name, options))
 
 
-@app.command()
-def run(
-    case: CasePath,
-    method: Method = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", help="Write DIR/<variant>/response.nc and DIR/report.html."),
-    ] = None,
-    json: Json = False,
-    report: Annotated[bool, typer.Option(help="Write the report.")] = True,
-) -> Job:
+def _parser(command: str) -> _Parser:
+    define = COMMANDS[command]
+    program = f"{PROGRAM} {command}"
+    parser = _Parser(
+        prog=program, description=_summary(command), allow_abbrev=False, add_help=False
+    )
+    parser.add_argument("-h", "--help", action="help", help="Show this message.")
+    parser.work = define(parser)
+    return parser
+
+
+def _summary(command: str) -> str:
+    return (COMMANDS[command].__doc__ or "").strip()
+
+
+def _print_overview() -> int:
+    width = max(map(len, COMMANDS))
+    commands = [f"  {name.ljust(width)}  {_summary(name)}" for name in COMMANDS]
+    options = [
+        "  --help     Show this message, or after a command what it takes.",
+        "  --version  Print the version.",
+        "  --debug    Show where in the program an error arose.",
+    ]
+    lines = [f"usage: {PROGRAM} [--debug] COMMAND ...", "", WHAT_IT_IS]
+    _print_in_sections([*lines, "", "commands:", *commands, "", "options:", *options])
+    return 0
+
+
+def _print_help(parser: ArgumentParser) -> int:
+    _print_in_sections(parser.format_help().splitlines())
+    return 0
+
+
+def _print_in_sections(lines: Sequence[str]) -> None:
+    for line in lines:
+        heading = line.endswith(":") and not line.startswith(" ")
+        print_line(line, style="bold cyan" if heading else "")
+
+
+def _print_version() -> int:
+    from bumpstop import __version__
+
+    print(f"{PROGRAM} {__version__}")
+    return 0
+
+
+def _run(parser: ArgumentParser) -> Callable[[Namespace], int]:
     """Simulate a case and check it against its references."""
-    from bumpstop.cli.run import run_command
+    _takes_case(parser)
+    _takes_method(parser)
+    _takes_folder(parser, None, "Write DIR/<variant>/response.nc and DIR/report.html.")
+    _takes_json(parser)
+    parser.add_argument(
+        "--report", action=BooleanOptionalAction, default=True, help="Write the report or not."
+    )
 
-    return partial(run_command, case, method=method, out=out, json=json, report=report)
+    def work(given: Namespace) -> int:
+        from bumpstop.cli.run import run_command
+
+        return run_command(
+            given.case, method=given.method, out=given.out, json=given.json, report=given.report
+        )
+
+    return work
 
 
-@app.command()
-def modes(case: CasePath, json: Json = False) -> Job:
+def _modes(parser: ArgumentParser) -> Callable[[Namespace], int]:
     """Print the natural frequencies of a case."""
-    from bumpstop.cli.modes import modes_command
+    _takes_case(parser)
+    _takes_json(parser)
 
-    return partial(modes_command, case, json=json)
+    def work(given: Namespace) -> int:
+        from bumpstop.cli.modes import modes_command
+
+        return modes_command(given.case, json=given.json)
+
+    return work
 
 
-@app.command()
-def verify(
-    names: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME]...", help="Cases; all if left out.")
-    ] = None,
-    cases: Annotated[
-        Path, typer.Option(metavar="DIR", help="The folder that holds the cases.")
-    ] = Path("cases"),
-    method: Method = None,
-    json: Json = False,
-) -> Job:
+def _verify(parser: ArgumentParser) -> Callable[[Namespace], int]:
     """Check cases against their references."""
-    from bumpstop.cli.verify import verify_command
+    parser.add_argument("names", nargs="*", metavar="NAME", help="Cases; all if left out.")
+    parser.add_argument(
+        "--cases",
+        type=Path,
+        metavar="DIR",
+        default=Path("cases"),
+        help="The folder that holds the cases; 'cases' if left out.",
+    )
+    _takes_method(parser)
+    _takes_json(parser)
 
-    return partial(verify_command, names or [], folder=cases, method=method, json=json)
+    def work(given: Namespace) -> int:
+        from bumpstop.cli.verify import verify_command
+
+        return verify_command(given.names, folder=given.cases, method=given.method, json=given.json)
+
+    return work
 
 
-@app.command()
-def report(
-    case: CasePath,
-    method: Method = None,
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Write DIR/report.html.")] = Path(),
-) -> Job:
+def _report(parser: ArgumentParser) -> Callable[[Namespace], int]:
     """Simulate a case and write its report alone."""
-    from bumpstop.cli.report import report_command
+    _takes_case(parser)
+    _takes_method(parser)
+    _takes_folder(parser, Path(), "Write DIR/report.html; here if left out.")
 
-    return partial(report_command, case, method=method, out=out)
+    def work(given: Namespace) -> int:
+        from bumpstop.cli.report import report_command
+
+        return report_command(given.case, method=given.method, out=given.out)
+
+    return work
 
 
-@app.command()
-def schema() -> Job:
+def _schema(_: ArgumentParser) -> Callable[[Namespace], int]:
     """Print the JSON schema of case files, for editors."""
-    from bumpstop.cli.schema import schema_command
 
-    return schema_command
+    def work(_: Namespace) -> int:
+        from bumpstop.cli.schema import schema_command
+
+        return schema_command()
+
+    return work
+
+
+COMMANDS: dict[str, Callable[[ArgumentParser], Callable[[Namespace], int]]] = {
+    "run": _run,
+    "modes": _modes,
+    "verify": _verify,
+    "report": _report,
+    "schema": _schema,
+}
+"""What each command takes, and what it does with that."""
+
+
+def _takes_case(parser: ArgumentParser) -> None:
+    parser.add_argument("case", type=Path, metavar="CASE.toml", help="The case file.")
+
+
+def _takes_method(parser: ArgumentParser) -> None:
+    told = "How to integrate time; as the case says if left out."
+    parser.add_argument("--method", metavar="M", help=told)
+
+
+def _takes_folder(parser: ArgumentParser, default: Path | None, told: str) -> None:
+    parser.add_argument("--out", type=Path, metavar="DIR", default=default, help=told)
+
+
+def _takes_json(parser: ArgumentParser) -> None:
+    told = "Print one JSON object and nothing else."
+    parser.add_argument("--json", action="store_true", help=told)

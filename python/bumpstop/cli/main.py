@@ -9,19 +9,13 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-import typer
-from typer.main import get_command
-
-from bumpstop.cli.app import Job, app
+from bumpstop.cli.app import Job, job
 from bumpstop.errors import BumpstopError
 
 __all__ = ["run_command_line"]
 
 WRONG_INPUT = 2
 UNFINISHED = 3
-
-# The base class of all mistakes in arguments; typer names only this child of it.
-_UsageError: type[typer.BadParameter] = typer.BadParameter.__mro__[1]
 
 
 def run_command_line(arguments: Sequence[str] | None) -> int:
@@ -31,7 +25,7 @@ def run_command_line(arguments: Sequence[str] | None) -> int:
     words = [word for word in given if word != "--debug"] or ["--help"]
     _replace_what_cannot_be_encoded()
     try:
-        return _done(get_command(app).main(words, prog_name="bumpstop", standalone_mode=False))
+        return _done(job(words))
     except BrokenPipeError:
         # Whoever read our output has seen enough; leave nothing for Python to flush at exit.
         _drop_standard_output()
@@ -46,9 +40,8 @@ def _drop_standard_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _done(command: Job | int) -> int:
-    """Do what a command wants done; --help and --version come as a status, done already."""
-    status = command if isinstance(command, int) else command()
+def _done(work: Job) -> int:
+    status = work()
     sys.stdout.flush()
     return status
 
@@ -58,9 +51,6 @@ def _failed(error: Exception) -> int:
     if isinstance(error, BumpstopError):
         _say(f"error: {error}")
         return error.exit_status
-    if isinstance(error, _UsageError):
-        _say(f"error: {error.format_message().rstrip('.')}; see 'bumpstop --help'")
-        return WRONG_INPUT
     if isinstance(error, OSError) and error.errno == errno.ENOSPC:
         _drop_standard_output()
         _say("error: no space left where the output goes; make room or write elsewhere")
