@@ -29,7 +29,11 @@ if TYPE_CHECKING:
     from bumpstop.structure.material import Material
     from bumpstop.structure.matrices import Matrices
     from bumpstop.structure.relation import Relation
-    from bumpstop.structure.section import Rectangle
+    from bumpstop.structure.sections.circle import Circle
+    from bumpstop.structure.sections.general import GeneralSection
+    from bumpstop.structure.sections.rectangle import Rectangle
+    from bumpstop.structure.sections.section import Section
+    from bumpstop.structure.sections.tube import Tube
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
 
@@ -39,8 +43,10 @@ __all__ = [
     "Beam",
     "BumpstopError",
     "Case",
+    "Circle",
     "ComputationError",
     "Gauge",
+    "GeneralSection",
     "Gravity",
     "InputError",
     "Material",
@@ -56,9 +62,11 @@ __all__ = [
     "Response",
     "RigidLink",
     "RigidRotation",
+    "Section",
     "Stop",
     "Structure",
     "Support",
+    "Tube",
     "load_case",
     "simulate",
 ]
@@ -67,8 +75,10 @@ _HOME = {
     "Beam": "structure.beam",
     "BumpstopError": "errors",
     "Case": "io.case",
+    "Circle": "structure.sections.circle",
     "ComputationError": "errors",
     "Gauge": "structure.gauge",
+    "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
     "InputError": "errors",
     "Material": "structure.material",
@@ -79,14 +89,16 @@ _HOME = {
     "Plane": "laws.obstacle",
     "PointMass": "structure.mass",
     "Problem": "problem",
-    "Rectangle": "structure.section",
     "Relation": "structure.relation",
+    "Rectangle": "structure.sections.rectangle",
     "Response": "response",
     "RigidLink": "structure.link",
     "RigidRotation": "loads.initial",
+    "Section": "structure.sections.section",
     "Stop": "laws.stop",
     "Structure": "structure.structure",
     "Support": "structure.support",
+    "Tube": "structure.sections.tube",
     "load_case": "io.case",
     "simulate": "simulate",
 }

@@ -8,7 +8,7 @@ import numpy as np
 
 from bumpstop.loads import Gravity, ModalState, NodalForce, RigidRotation
 from bumpstop.report.scales import significant, with_unit
-from bumpstop.structure.section import Rectangle
+from bumpstop.structure.sections.rectangle import Rectangle
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

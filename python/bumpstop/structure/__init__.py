@@ -6,7 +6,7 @@ from bumpstop.structure.link import RigidLink
 from bumpstop.structure.mass import PointMass
 from bumpstop.structure.material import Material
 from bumpstop.structure.relation import Relation
-from bumpstop.structure.section import Rectangle
+from bumpstop.structure.sections.rectangle import Rectangle
 from bumpstop.structure.structure import Structure
 from bumpstop.structure.support import Support
 

@@ -9,16 +9,15 @@ from functools import cached_property
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, count, name, one_of
+from bumpstop.arguments import FloatArray, Vector, count, finite, name, not_negative, one_of
 from bumpstop.errors import InputError
-from bumpstop.structure.assembly import Block
 from bumpstop.structure.dofs import DOFS
-from bumpstop.structure.elements import THEORIES
+from bumpstop.structure.elements import THEORIES, Element, Slice
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.frame import local_axes
 from bumpstop.structure.material import Material
 from bumpstop.structure.mesh import Mesh
-from bumpstop.structure.section import Section
+from bumpstop.structure.sections.section import Section
 from bumpstop.structure.sparse import IndexArray
 
 __all__ = ["MOST_ELEMENTS", "Beam"]
@@ -37,7 +36,7 @@ class Beam:
 
     Local x runs from the first node to the second. Local z is the global Z made perpendicular
     to x, and y = z x x, so that a beam along X has the global axes; for a beam parallel to the
-    global Z, local y is the global Y.
+    global Z, local y is the global Y. ``roll`` then turns y and z about x.
 
     Parameters
     ----------
@@ -52,7 +51,20 @@ class Beam:
     section
         Its cross section, for instance a ``Rectangle``.
     theory
-        Name of the beam theory: ``"timoshenko"``.
+        ``"timoshenko"``: bending with shear strain and rotary inertia; ``"rayleigh"``: without
+        shear strain; ``"euler_bernoulli"``: with neither; ``"bar"``: stretch alone.
+    roll
+        Angle in rad by which local y and z are turned about local x.
+    mass
+        ``"consistent"``: by the element's own functions; ``"lumped"``: a diagonal matrix.
+    added_mass
+        Mass in kg/m that moves with the beam in every direction: contents, insulation.
+    tension
+        Axial force in N, constant along the beam and in time; negative for a compression. It
+        stiffens bending and twist.
+    spin
+        Speed in rad/s at which the beam turns about local x, constant in time: its sections'
+        angular momentum makes the gyroscopic matrix.
 
     Raises
     ------
@@ -66,27 +78,44 @@ class Beam:
     material: Material = field(kw_only=True)
     section: Section = field(kw_only=True)
     theory: str = field(default="timoshenko", kw_only=True)
+    roll: float = field(default=0.0, kw_only=True)
+    mass: str = field(default="consistent", kw_only=True)
+    added_mass: float = field(default=0.0, kw_only=True)
+    tension: float = field(default=0.0, kw_only=True)
+    spin: float = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", name("name", self.name))
         object.__setattr__(self, "nodes", _two_names(self.nodes))
         object.__setattr__(self, "elements", _element_count(self.elements))
         one_of("theory", self.theory, tuple(THEORIES))
+        one_of("mass", self.mass, ("consistent", "lumped"))
         if not isinstance(self.material, Material):
             raise InputError("must be a Material", key="material", value=self.material)
         if not isinstance(self.section, Section):
             raise InputError("must be a section", key="section", value=self.section)
+        object.__setattr__(self, "added_mass", not_negative("added_mass", self.added_mass))
+        for key in ("roll", "tension", "spin"):
+            object.__setattr__(self, key, finite(key, getattr(self, key)))
+        if self.spin != 0.0:
+            self._require_shaft()
 
     @cached_property
     def inner_nodes(self) -> tuple[str, ...]:
         """Names of the mesh nodes inside the beam."""
         return tuple(f"{self.name}.{number}" for number in range(1, self.elements))
 
-    def meshed(self, mesh: Mesh) -> Mesh:
-        """Return the mesh with the nodes inside the beam added to it."""
+    def inner_positions(self, mesh: Mesh) -> FloatArray:
+        """Return the places of the mesh nodes inside the beam, (elements - 1, 3)."""
         start, end = self._ends(mesh)
         part = np.arange(1, self.elements)[:, np.newaxis] / self.elements
-        return mesh.with_nodes(self.inner_nodes, start + (end - start) * part)
+        positions: FloatArray = start + (end - start) * part
+        return positions
+
+    @property
+    def slice(self) -> Slice:
+        """What a slice of it resists and weighs."""
+        return THEORIES[self.theory].slice_of(self.material, self.section, self.added_mass)
 
     def length(self, mesh: Mesh) -> float:
         """Return the length in m.
@@ -99,36 +128,17 @@ class Beam:
         start, end = self._ends(mesh)
         length = math.dist(start, end)
         if length == 0.0:
-            raise InputError(
-                "the beam has no length",
-                key=f"beams.{self.name}.nodes",
-                value=self.nodes,
-                hint="its two nodes must be at different places",
-            )
+            raise self.without_length()
         return length
 
-    def block(self, mesh: Mesh) -> Block:
-        """Return the matrices of one element in global axes, and where they go.
-
-        Raises
-        ------
-        InputError
-            If they overflow.
-        """
-        theory = THEORIES[self.theory]
-        part = self._element_length(mesh), self.material, self.section
-        to_local = self._to_local(mesh)
-        try:
-            with np.errstate(over="raise", divide="raise", invalid="raise"):
-                stiffness = _turned(theory.stiffness(*part), to_local)
-                mass = _turned(theory.mass(*part), to_local)
-        except ArithmeticError as error:
-            raise InputError(
-                "its numbers are too large or too small to compute with",
-                key=f"beams.{self.name}",
-                hint="check the units of length, section and material",
-            ) from error
-        return Block(self._element_dofs(mesh), stiffness, mass)
+    def without_length(self) -> InputError:
+        """Return the error that says that the beam has no length."""
+        return InputError(
+            "the beam has no length",
+            key=f"beams.{self.name}.nodes",
+            value=self.nodes,
+            hint="its two nodes must be at different places",
+        )
 
     def require_on(self, mesh: Mesh, at: float, *, key: str, value: object) -> None:
         """Raise InputError if the point ``at`` m along is not on the beam."""
@@ -141,9 +151,7 @@ class Beam:
     def displacement_form(self, mesh: Mesh, at: float, dof: str) -> LinearForm:
         """Return a displacement or rotation along or about a global axis, ``at`` m along."""
         element, xi = self._locate(mesh, at)
-        functions = THEORIES[self.theory].interpolation(
-            xi, self._element_length(mesh), self.material, self.section
-        )
+        functions = self._element.interpolation(xi, self._element_length(mesh), self.slice)
         to_local = self._to_local(mesh)
         in_global = to_local[:6, :6].T @ functions @ to_local
         return LinearForm(self._element_dofs(mesh)[element], in_global[DOFS.index(dof)])
@@ -151,9 +159,7 @@ class Beam:
     def strain_form(self, mesh: Mesh, at: float, fibre: tuple[float, float]) -> LinearForm:
         """Return the axial strain of a fibre (y, z), ``at`` m along the beam."""
         element, xi = self._locate(mesh, at)
-        strain = THEORIES[self.theory].axial_strain(
-            xi, fibre, self._element_length(mesh), self.material, self.section
-        )
+        strain = self._element.axial_strain(xi, fibre, self._element_length(mesh), self.slice)
         return LinearForm(self._element_dofs(mesh)[element], strain @ self._to_local(mesh))
 
     def position(self, mesh: Mesh, at: float) -> Vector:
@@ -162,6 +168,22 @@ class Beam:
         start, end = self._ends(mesh)
         x, y, z = start + (end - start) * ((element + xi) / self.elements)
         return float(x), float(y), float(z)
+
+    def _require_shaft(self) -> None:
+        """Raise where the gyroscopic matrix of a constant speed has no meaning."""
+        if not THEORIES[self.theory].rotary:
+            hint = 'take theory "timoshenko" or "rayleigh"'
+            raise InputError(
+                "a beam that spins needs rotary inertia", key="theory", value=self.theory, hint=hint
+            )
+        around = self.section.inertia_y, self.section.inertia_z, *self.section.shear_factors
+        if not math.isclose(around[0], around[1], rel_tol=1e-9) or around[2] != around[3]:
+            what = "a beam that spins must be as stiff about y as about z"
+            raise InputError(what, key="spin", value=self.spin, hint="take a circle or a tube")
+
+    @property
+    def _element(self) -> Element:
+        return THEORIES[self.theory].element
 
     def _ends(self, mesh: Mesh) -> tuple[FloatArray, FloatArray]:
         key = f"beams.{self.name}.nodes"
@@ -180,20 +202,14 @@ class Beam:
 
     def _to_local(self, mesh: Mesh) -> FloatArray:
         """Return the matrix that turns an element's dofs from global to local axes, (12, 12)."""
-        return np.kron(np.eye(4), local_axes(*self._ends(mesh))).astype(np.float64)
+        axes = local_axes(*self._ends(mesh), self.roll)
+        return np.kron(np.eye(4), axes).astype(np.float64)
 
     def _locate(self, mesh: Mesh, at: float) -> tuple[int, float]:
         """Return the element ``at`` m along the beam, and how far along in it, 0 to 1."""
         place = min(max(at / self.length(mesh), 0.0), 1.0) * self.elements
         element = min(int(place), self.elements - 1)
         return element, place - element
-
-
-def _turned(matrix: FloatArray, to_local: FloatArray) -> FloatArray:
-    """Return a local matrix in global axes, exactly symmetric."""
-    turned = to_local.T @ matrix @ to_local
-    symmetric: FloatArray = 0.5 * (turned + turned.T)
-    return symmetric
 
 
 def _two_names(value: object) -> tuple[str, str]:

@@ -1,25 +1,24 @@
-"""Local axes of a straight member, and its rigid motions in space."""
+"""Local axes of straight members, and rigid motions in space."""
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray
 
-__all__ = ["local_axes", "rigid_motions"]
+__all__ = ["local_axes", "rigid_motions", "turned"]
 
 _UPRIGHT = 1e-6
 """A member within this angle (rad) of the global Z counts as parallel to it."""
 
 
-def local_axes(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Return the unit vectors of a member's local axes, one a row, (3, 3).
+def local_axes(start: FloatArray, end: FloatArray, roll: FloatArray | float = 0.0) -> FloatArray:
+    """Return the unit vectors of members' local axes, one a row, (..., 3, 3).
 
-    Local x runs from ``start`` to ``end``. Local z is the global Z made perpendicular to x,
-    and y = z x x, so that a member along X has the global axes; for a member parallel to
-    the global Z, local y is the global Y.
+    Local x runs from ``start`` to ``end``, each (..., 3). Local z is the global Z made
+    perpendicular to x, and y = z x x, so that a member along X has the global axes; for a
+    member parallel to the global Z, local y is the global Y. Then y and z are turned by
+    ``roll``, in rad about x.
 
     Examples
     --------
@@ -29,11 +28,39 @@ def local_axes(start: FloatArray, end: FloatArray) -> FloatArray:
            [0., 0., 1.]])
     """
     x = _unit(end - start)
-    if math.hypot(x[0], x[1]) > _UPRIGHT:
-        y = _unit(np.array([-x[1], x[0], 0.0]))
-    else:
-        y = _unit(np.array([0.0, 1.0, 0.0]) - x[1] * x)
-    return np.array([x, y, np.cross(x, y)]) + 0.0
+    level = np.stack([-x[..., 1], x[..., 0], np.zeros(x.shape[:-1])], axis=-1)
+    upright = np.hypot(x[..., 0], x[..., 1]) <= _UPRIGHT
+    y = np.where(upright[..., np.newaxis], np.array([0.0, 1.0, 0.0]) - x[..., 1:2] * x, level)
+    y = _unit(y)
+    z = np.cross(x, y)
+    if np.any(roll):
+        cosine, sine = np.cos(roll)[..., np.newaxis], np.sin(roll)[..., np.newaxis]
+        y, z = cosine * y + sine * z, cosine * z - sine * y
+    axes: FloatArray = np.stack([x, y, z], axis=-2) + 0.0
+    return axes
+
+
+def turned(matrices: FloatArray, axes: FloatArray, *, skew: bool = False) -> FloatArray:
+    """Return matrices of local dofs in global axes, exactly as symmetric as they were.
+
+    Parameters
+    ----------
+    matrices
+        Symmetric, with three dofs for each vector, (elements, 3 n, 3 n).
+    axes
+        Local axes of each element, one a row, (elements, 3, 3).
+    skew
+        Whether the matrices are skew-symmetric instead.
+    """
+    size = matrices.shape[-1]
+    tall = (-1, size * size // 3, 3)
+    half = (matrices.reshape(tall) @ axes).reshape(matrices.shape)
+    # The second product is that of the transposed matrices, so that it is like the first.
+    other = np.ascontiguousarray(np.swapaxes(half, 1, 2)).reshape(tall) @ axes
+    full = np.swapaxes(other.reshape(matrices.shape), 1, 2)
+    mirrored = np.swapaxes(full, 1, 2)
+    symmetric: FloatArray = 0.5 * (full - mirrored if skew else full + mirrored)
+    return symmetric
 
 
 def rigid_motions(positions: FloatArray, about: FloatArray) -> FloatArray:
@@ -51,6 +78,8 @@ def rigid_motions(positions: FloatArray, about: FloatArray) -> FloatArray:
     return motions.reshape(-1, 6)
 
 
-def _unit(vector: FloatArray) -> FloatArray:
-    """Return a vector of length one, exact for a vector along an axis."""
-    return vector / math.hypot(*vector)
+def _unit(vectors: FloatArray) -> FloatArray:
+    """Return vectors of length one, exact for those along an axis."""
+    length = np.hypot(np.hypot(vectors[..., 0:1], vectors[..., 1:2]), vectors[..., 2:3])
+    unit: FloatArray = vectors / length
+    return unit

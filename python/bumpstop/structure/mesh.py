@@ -31,9 +31,9 @@ class Mesh:
     names: tuple[str, ...]
     positions: FloatArray
 
-    def with_nodes(self, names: Iterable[str], positions: FloatArray) -> Mesh:
+    def with_nodes(self, names: Iterable[str], positions: Iterable[FloatArray]) -> Mesh:
         """Return the mesh with more nodes at its end."""
-        return Mesh((*self.names, *names), np.concatenate([self.positions, positions]))
+        return Mesh((*self.names, *names), np.concatenate([self.positions, *positions]))
 
     def node(self, node: str, key: str = "node") -> int:
         """Return the number of a node.

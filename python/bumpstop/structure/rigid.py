@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from bumpstop.arguments import FloatArray
-from bumpstop.structure.assembly import Block
+from bumpstop.structure.assembly import Contribution
 from bumpstop.structure.echelon import null_space
 from bumpstop.structure.elimination import Freedom
 from bumpstop.structure.frame import rigid_motions
@@ -33,17 +33,17 @@ _CANCELLED = 1e-9
 """A sum this small beside the sizes of its terms is rounding."""
 
 
-def rigid_fields(mesh: Mesh, blocks: Sequence[Block], freedom: Freedom) -> FloatArray:
+def rigid_fields(mesh: Mesh, parts: Sequence[Contribution], freedom: Freedom) -> FloatArray:
     """Return all motions on all dofs that strain nothing and that are free, (dofs, motions).
 
     Where too many small bodies hang together (the nodes of a large truss), each connected
     piece is taken for one body; mechanisms inside it are then not found.
     """
-    parts = resistance(mesh, blocks)
+    resisted = resistance(mesh, parts)
     ties = _ties(freedom)
-    for edges in (parts.rigid_edges, parts.edges):
+    for edges in (resisted.rigid_edges, resisted.edges):
         motions = _body_motions(mesh, edges, freedom)
-        rows = _relative_product(ties.stacked(parts.strains), motions)
+        rows = _relative_product(ties.stacked(resisted.strains), motions)
         groups = _groups(rows)
         if max(map(len, groups), default=0) <= _MOST_MOTIONS:
             break

@@ -53,14 +53,22 @@ class SparseMatrix:
         array([[3., 0.],
                [0., 5.]])
         """
-        order = np.lexsort((rows, columns))
-        rows, columns, values = rows[order], columns[order], values[order]
-        new = np.ones(len(rows), dtype=bool)
-        new[1:] = (np.diff(rows) != 0) | (np.diff(columns) != 0)
+        keys = columns * shape[0] + rows
+        order = _stable_order(keys, shape[0] * shape[1])
+        keys = keys[order]
+        new = np.ones(len(keys), dtype=bool)
+        new[1:] = keys[1:] != keys[:-1]
         first = np.flatnonzero(new)
-        summed = np.add.reduceat(values, first) if len(first) else np.zeros(0)
-        starts = np.searchsorted(columns[first], np.arange(shape[1] + 1))
-        return cls(shape, starts, rows[first], summed)
+        summed = np.add.reduceat(values[order], first) if len(first) else np.zeros(0)
+        places = order[first]
+        starts = np.searchsorted(columns[places], np.arange(shape[1] + 1))
+        return cls(shape, starts, rows[places], summed)
+
+    @classmethod
+    def zeros(cls, size: int) -> SparseMatrix:
+        """Return a square matrix without entries."""
+        nothing = np.zeros(0, dtype=np.intp)
+        return cls((size, size), np.zeros(size + 1, dtype=np.intp), nothing, np.zeros(0))
 
     @classmethod
     def selection(cls, size: int, kept: IndexArray) -> SparseMatrix:
@@ -90,9 +98,10 @@ class SparseMatrix:
         rows, columns = place[self.rows], place[self.columns]
         inside = (rows >= 0) & (columns >= 0)
         size = len(kept)
-        return SparseMatrix.from_triplets(
-            (size, size), rows[inside], columns[inside], self.values[inside]
-        )
+        # The entries are in their order already.
+        heights = np.bincount(columns[inside], minlength=size)
+        starts = np.concatenate([[0], np.cumsum(heights)])
+        return SparseMatrix((size, size), starts, rows[inside], self.values[inside])
 
     def transposed(self) -> SparseMatrix:
         """Return the transpose."""
@@ -170,7 +179,20 @@ class SparseMatrix:
 
     def __matmul__(self, field: FloatArray) -> FloatArray:
         """Return the product with a vector (columns,) or with several, (columns, m)."""
-        product = np.zeros((self.shape[0], *field.shape[1:]))
-        weights = self.values.reshape(-1, *([1] * (field.ndim - 1)))
-        np.add.at(product, self.rows, weights * field[self.columns])
-        return product
+        columns = field.reshape(self.shape[1], -1)[self.columns].T
+        products = [
+            np.bincount(self.rows, self.values * column, minlength=self.shape[0])
+            for column in columns
+        ]
+        product: FloatArray = np.array(products, dtype=np.float64).T
+        return product.reshape(self.shape[0], *field.shape[1:])
+
+
+def _stable_order(keys: IndexArray, largest: int) -> IndexArray:
+    """Return the order that sorts keys from 0 to ``largest``, equal ones in their own order."""
+    bits = len(keys).bit_length()
+    if largest.bit_length() + bits > 63:
+        return np.argsort(keys, kind="stable")
+    # Numbers are sorted many times faster than places: each key carries its own place.
+    order: IndexArray = np.sort((keys << bits) | np.arange(len(keys))) & ((1 << bits) - 1)
+    return order

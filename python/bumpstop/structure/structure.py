@@ -10,8 +10,9 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, did_you_mean, one_of
 from bumpstop.errors import InputError, blamed
-from bumpstop.structure.assembly import Block, Part, assembled
+from bumpstop.structure.assembly import Assembly, Part
 from bumpstop.structure.beam import Beam
+from bumpstop.structure.beam_blocks import beam_blocks
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.elimination import Freedom, freedom
 from bumpstop.structure.forms import LinearForm
@@ -98,9 +99,9 @@ class Structure:
     def mesh(self) -> Mesh:
         """The nodes that the user gave, and then those inside the beams."""
         mesh = user_nodes(self.nodes)
-        for beam in self.beams:
-            mesh = beam.meshed(mesh)
-        return mesh
+        meshed = [beam for beam in self.beams if beam.elements > 1]
+        names = [node for beam in meshed for node in beam.inner_nodes]
+        return mesh.with_nodes(names, [beam.inner_positions(mesh) for beam in meshed])
 
     @property
     def dofs(self) -> tuple[Dof, ...]:
@@ -120,27 +121,27 @@ class Structure:
     @cached_property
     def stiffness(self) -> SparseMatrix:
         """Symmetric stiffness matrix on all dofs, supports not yet applied; N/m, N and N m."""
-        return self._assembled("stiffness")
+        return self._assembly.matrix("stiffness")
 
     @cached_property
     def mass(self) -> SparseMatrix:
         """Symmetric mass matrix on all dofs, supports not yet applied; kg, kg m and kg m2."""
-        return self._assembled("mass")
+        return self._assembly.matrix("mass")
 
     @cached_property
     def damping(self) -> SparseMatrix:
         """Symmetric damping matrix of the parts, on all dofs; N s/m, N s and N m s."""
-        return self._assembled("damping")
+        return self._assembly.matrix("damping")
 
     @cached_property
     def gyroscopic(self) -> SparseMatrix:
         """Skew-symmetric gyroscopic matrix of the parts that spin, on all dofs; as damping."""
-        return self._assembled("gyroscopic")
+        return self._assembly.matrix("gyroscopic")
 
     @cached_property
     def circulatory(self) -> SparseMatrix:
         """Skew-symmetric part of the stiffness of bearings, on all dofs; as stiffness."""
-        return self._assembled("circulatory")
+        return self._assembly.matrix("circulatory")
 
     def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
         """Return a matrix of all dofs as one of the free dofs, expansion' @ matrix @ expansion."""
@@ -150,7 +151,7 @@ class Structure:
 
     def rigid_shapes(self) -> FloatArray:
         """Return all motions that strain nothing, by the free dofs, (free dofs, motions)."""
-        return rigid_fields(self.mesh, self._blocks, self._freedom)[self.free]
+        return rigid_fields(self.mesh, self._assembly.parts, self._freedom)[self.free]
 
     def displacement_form(self, node: str, dof: str) -> LinearForm:
         """Return one dof of a node, or of a point along a beam, as a form of all dofs.
@@ -241,13 +242,10 @@ class Structure:
         return zeros
 
     @cached_property
-    def _blocks(self) -> list[Block]:
-        parts: list[Part] = [*self.beams, *self.masses]
-        return [part.block(self.mesh) for part in parts]
-
-    def _assembled(self, kind: str) -> SparseMatrix:
-        pieces = ((block.dofs, getattr(block, kind)) for block in self._blocks)
-        return assembled(pieces, len(self.dofs))
+    def _assembly(self) -> Assembly:
+        parts: list[Part] = [*self.masses]
+        blocks = [part.block(self.mesh) for part in parts]
+        return Assembly([*beam_blocks(self.beams, self.mesh), *blocks], len(self.mesh.names))
 
     def _beam_point(self, node: str) -> tuple[Beam, float] | None:
         """Return the beam and the distance along it that a point's name tells."""
@@ -268,8 +266,8 @@ class Structure:
     def _refuse_loose_nodes(self) -> None:
         """Raise where a node can move that no part is attached to."""
         attached = np.zeros(len(self.mesh.names), dtype=bool)
-        for block in self._blocks:
-            attached[block.dofs // 6] = True
+        for block in self._assembly.parts:
+            attached[block.nodes] = True
         for zero in self._zeros:
             attached[zero.dofs // 6] = True
         moving = self.free // 6

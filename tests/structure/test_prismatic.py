@@ -16,14 +16,14 @@ from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from bumpstop import Material, Rectangle
-from bumpstop.structure.elements import timoshenko
+from bumpstop.structure.elements import THEORIES, prismatic
 
 Array = NDArray[np.float64]
 
 LENGTH = 0.4
 MATERIAL = Material(young_modulus=70e9, poisson_ratio=0.33, density=2700.0)
 SECTION = Rectangle(height=0.11, width=0.05, shear_factors=(0.85, 0.7))
-PART = (LENGTH, MATERIAL, SECTION)
+PART = (LENGTH, THEORIES["timoshenko"].slice_of(MATERIAL, SECTION, 0.0))
 
 BENDING_Y = [1, 5, 7, 11]
 BENDING_Z = [2, 4, 8, 10]
@@ -88,8 +88,8 @@ def test_bending_matrices(dofs: list[int], signs: Array, inertia: float, factor:
     stiffness = exact.matrix((0, 0, exact.bending, exact.shear))
     mass = exact.matrix((exact.line_mass, exact.line_inertia, 0, 0))
     for computed, expected in (
-        (timoshenko.stiffness(*PART), stiffness),
-        (timoshenko.mass(*PART), mass),
+        (prismatic.stiffness(*PART), stiffness),
+        (prismatic.mass(*PART), mass),
     ):
         block = computed[np.ix_(dofs, dofs)]
         scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
@@ -102,13 +102,13 @@ def test_bending_interpolation(
     dofs: list[int], signs: Array, inertia: float, factor: float, xi: float
 ) -> None:
     deflection, rotation, curvature = ExactBending(inertia, factor).at(xi) @ signs
-    functions = timoshenko.interpolation(xi, *PART)
+    functions = prismatic.interpolation(xi, *PART)
     along_y = dofs == BENDING_Y
     np.testing.assert_allclose(functions[1 if along_y else 2, dofs], deflection, atol=1e-14)
     turned = functions[5, dofs] if along_y else -functions[4, dofs]
     np.testing.assert_allclose(turned, rotation, atol=1e-13)
     fibre = (1.0, 0.0) if along_y else (0.0, 1.0)
-    strain = timoshenko.axial_strain(xi, fibre, *PART)
+    strain = prismatic.axial_strain(xi, fibre, *PART)
     np.testing.assert_allclose(strain[dofs], -curvature, rtol=1e-12, atol=1e-11)
 
 
@@ -124,13 +124,13 @@ def test_stiffness_is_the_inverse_of_the_flexibility_of_a_cantilever(
             [LENGTH**2 / (2 * bending), LENGTH / bending],
         ]
     )
-    tip = timoshenko.stiffness(*PART)[np.ix_(dofs[2:], dofs[2:])]
+    tip = prismatic.stiffness(*PART)[np.ix_(dofs[2:], dofs[2:])]
     signs = signs[2:, 2:]
     np.testing.assert_allclose(tip @ signs @ flexibility @ signs, np.eye(2), atol=1e-11)
 
 
 def test_stretch_and_twist() -> None:
-    stiffness, mass = timoshenko.stiffness(*PART), timoshenko.mass(*PART)
+    stiffness, mass = prismatic.stiffness(*PART), prismatic.mass(*PART)
     axial = MATERIAL.young_modulus * SECTION.area / LENGTH
     torsional = MATERIAL.shear_modulus * SECTION.torsion_constant / LENGTH
     polar = MATERIAL.density * (SECTION.inertia_y + SECTION.inertia_z) * LENGTH
@@ -144,7 +144,7 @@ def test_stretch_and_twist() -> None:
 
 
 def test_matrices_are_symmetric_and_mass_is_positive() -> None:
-    stiffness, mass = timoshenko.stiffness(*PART), timoshenko.mass(*PART)
+    stiffness, mass = prismatic.stiffness(*PART), prismatic.mass(*PART)
     np.testing.assert_array_equal(stiffness, stiffness.T)
     np.testing.assert_array_equal(mass, mass.T)
     assert np.linalg.eigvalsh(mass).min() > 0.0
@@ -161,15 +161,15 @@ def rigid_motions() -> Array:
 
 def test_rigid_motions_strain_nothing_and_are_interpolated_exactly() -> None:
     motions = rigid_motions()
-    forces = timoshenko.stiffness(*PART) @ motions
-    largest = np.abs(timoshenko.stiffness(*PART)).max()
+    forces = prismatic.stiffness(*PART) @ motions
+    largest = np.abs(prismatic.stiffness(*PART)).max()
     assert np.abs(forces).max() < 1e-15 * largest
-    assert np.linalg.matrix_rank(timoshenko.stiffness(*PART) / largest, tol=1e-12) == 6
+    assert np.linalg.matrix_rank(prismatic.stiffness(*PART) / largest, tol=1e-12) == 6
     xi = 0.3
     expected = np.eye(6)
     expected[1, 5], expected[2, 4] = xi * LENGTH, -xi * LENGTH
-    np.testing.assert_allclose(timoshenko.interpolation(xi, *PART) @ motions, expected, atol=1e-15)
-    strain = timoshenko.axial_strain(xi, (0.03, 0.01), *PART)
+    np.testing.assert_allclose(prismatic.interpolation(xi, *PART) @ motions, expected, atol=1e-15)
+    strain = prismatic.axial_strain(xi, (0.03, 0.01), *PART)
     np.testing.assert_allclose(strain @ motions, 0.0, atol=1e-14)
 
 
@@ -177,7 +177,7 @@ def test_rigid_motions_strain_nothing_and_are_interpolated_exactly() -> None:
 def test_interpolation_is_exactly_one_at_its_own_node(xi: float, dofs: slice) -> None:
     expected = np.zeros((6, 12))
     expected[:, dofs] = np.eye(6)
-    np.testing.assert_array_equal(timoshenko.interpolation(xi, *PART), expected)
+    np.testing.assert_array_equal(prismatic.interpolation(xi, *PART), expected)
 
 
 def test_constant_curvature_and_stretch_are_exact() -> None:
@@ -189,13 +189,13 @@ def test_constant_curvature_and_stretch_are_exact() -> None:
     ends[8], ends[10] = -about_y * LENGTH**2 / 2, about_y * LENGTH
     for xi in (0.0, 0.2, 0.77, 1.0):
         y, z = 0.04, -0.02
-        strain = timoshenko.axial_strain(xi, (y, z), *PART) @ ends
+        strain = prismatic.axial_strain(xi, (y, z), *PART) @ ends
         assert strain == pytest.approx(stretch - y * about_z + z * about_y, rel=1e-12)
 
 
 def test_mass_moves_as_a_rigid_body() -> None:
     motions = rigid_motions()
-    mass = motions.T @ timoshenko.mass(*PART) @ motions
+    mass = motions.T @ prismatic.mass(*PART) @ motions
     total = MATERIAL.density * SECTION.area * LENGTH
     inertia = (
         MATERIAL.density
