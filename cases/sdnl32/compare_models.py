@@ -1,6 +1,6 @@
-"""How far several models of SDNL32 are from the published values: the table of README.md.
+"""How far several models of SDNL32 are from the published values, and how many modes it takes.
 
-Run it to print the table, or with --write to put it into README.md.
+Run it to print the tables of README.md, or with --write to put them there.
 """
 
 from __future__ import annotations
@@ -9,6 +9,8 @@ import re
 import sys
 from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 import bumpstop as bs
 from bumpstop.post.references import check_references
@@ -21,16 +23,23 @@ LENGTH = 0.783
 EVEN = ((LENGTH, 10),)
 WITH_MISPLACED_NODE = ((0.3915, 5), (0.4620, 1), (0.5481, 1), (LENGTH, 3))
 """Stretches of equal elements: where each ends, in m, and how many it has."""
+FINE = ((LENGTH, 160),)
+TIMES = np.linspace(0.0, 0.02, 4001)
+"""Instants in s at which stop forces are compared."""
 
 
 def basis(
     stretches: tuple[tuple[float, int], ...] = EVEN,
     *,
-    modes: int = 10,
+    modes: int | str = 10,
     damping: float = 0.01,
     axial: bool = False,
+    static_shapes: tuple[tuple[str, str], ...] = (),
 ) -> bs.ModalBasis:
-    """Return the modes of the hinged beam, without or with those along its axis."""
+    """Return the modes of the hinged beam, without or with those along its axis.
+
+    Static shapes under forces at some places join them where asked for.
+    """
     ends = [0.0, *(end for end, _ in stretches)]
     names = ["A", *(f"P{number}" for number in range(1, len(stretches))), "B"]
     beams = [
@@ -48,7 +57,9 @@ def basis(
             bs.Support(nodes=("A",), fixed=("dx", "dy")),
         ],
     )
-    return bs.ModalBasis.from_structure(structure, modes=modes, damping=damping)
+    return bs.ModalBasis.from_structure(
+        structure, modes=modes, damping=damping, static_shapes=static_shapes
+    )
 
 
 def deviations(modes: bs.ModalBasis) -> list[float]:
@@ -73,8 +84,8 @@ def converged() -> tuple[str, list[float]]:
         before = now
 
 
-def table() -> str:
-    """Return the table as Markdown."""
+def model_table() -> str:
+    """Return the deviations of several models as Markdown."""
     rows = [
         ("clean: this case", deviations(basis())),
         ("nine bending modes and the axial one", deviations(basis(axial=True))),
@@ -83,18 +94,60 @@ def table() -> str:
         converged(),
     ]
     lines = [f"| {name} | {soft:.2f} % | {stiff:.2f} % |" for name, (soft, stiff) in rows]
-    head = ["| model | soft, 18 kN/m | stiff, 45 kN/m |", "|---|---|---|"]
-    return "\n".join(head + lines)
+    return "\n".join([_head("model"), *lines])
+
+
+def force_errors() -> dict[str, list[float]]:
+    """Return how far the stop force on several bases is from that on all modes.
+
+    For each basis and variant: the largest difference over time, in % of the largest force.
+    """
+    tip = (("B", "dy"),)
+    bases = {
+        "5 modes": basis(FINE, modes=5),
+        "5 modes and the static shape of the stop": basis(FINE, modes=5, static_shapes=tip),
+        "10 modes": basis(FINE, modes=10),
+        "10 modes and the static shape of the stop": basis(FINE, modes=10, static_shapes=tip),
+        "20 modes": basis(FINE, modes=20),
+    }
+    everything = basis(FINE, modes="all")
+    errors: dict[str, list[float]] = {name: [] for name in bases}
+    for variant in CASE.problems:
+        converged = _stop_force(everything, variant)
+        for name, modes in bases.items():
+            difference = np.abs(_stop_force(modes, variant) - converged).max()
+            errors[name].append(100.0 * difference / converged.max())
+    return errors
+
+
+def _stop_force(modes: bs.ModalBasis, variant: str) -> np.ndarray:
+    problem = replace(CASE.problems[variant], basis=modes, gauges=())
+    return bs.simulate(problem, "exact").sample("stop_force", "spring", times=TIMES)
+
+
+def force_table() -> str:
+    """Return the errors of the stop force as Markdown."""
+    lines = [
+        f"| {name} | {soft:.3f} % | {stiff:.3f} % |"
+        for name, (soft, stiff) in force_errors().items()
+    ]
+    return "\n".join([_head("basis"), *lines])
+
+
+def _head(first: str) -> str:
+    return f"| {first} | soft, 18 kN/m | stiff, 45 kN/m |\n|---|---|---|"
 
 
 def readme() -> str:
-    """Return README.md with the table as it is computed now."""
-    written = (HERE / "README.md").read_text(encoding="utf-8")
-    return re.sub(r"\| model \|(.*\n)+?(?=\n)", f"{table()}\n", written)
+    """Return README.md with the tables as they are computed now."""
+    text = (HERE / "README.md").read_text(encoding="utf-8")
+    for first, table in (("model", model_table), ("basis", force_table)):
+        text = re.sub(rf"\| {first} \|.*\n(\|.*\n)*", f"{table()}\n", text)
+    return text
 
 
 if __name__ == "__main__":
     if "--write" in sys.argv:
         (HERE / "README.md").write_text(readme(), encoding="utf-8")
     else:
-        print(table())
+        print(model_table(), force_table(), sep="\n\n")

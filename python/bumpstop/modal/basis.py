@@ -8,14 +8,17 @@ from functools import cached_property
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, count, did_you_mean, not_negative, one_of, series
+from bumpstop.arguments import FloatArray, did_you_mean, not_negative, one_of, series
 from bumpstop.errors import InputError
+from bumpstop.modal.companions import companions
 from bumpstop.modal.coordinates import UserCoordinates
-from bumpstop.modal.damping import Damping, angular_frequencies, modal_damping
+from bumpstop.modal.damping import Damping, angular_frequencies, modal_damping, with_companions
 from bumpstop.modal.eigen import structure_modes
 from bumpstop.modal.given import given_labels, given_vectors
+from bumpstop.modal.places import Place
 from bumpstop.modal.projected import projected
-from bumpstop.modal.vectors import canonical_vectors
+from bumpstop.modal.selection import AllModes, LowestModes, ModeSelection, mode_selection
+from bumpstop.modal.vectors import DEPENDENT, canonical_vectors
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.model import LinearModel, StrainModel
@@ -78,41 +81,78 @@ class ModalBasis:
 
     def __post_init__(self) -> None:
         if not self.labels:
-            labels = tuple(f"mode {number}" for number in range(1, len(self.omega2) + 1))
-            object.__setattr__(self, "labels", labels)
+            object.__setattr__(self, "labels", _mode_labels(len(self.omega2)))
 
     @classmethod
     def from_structure(
         cls,
-        structure: Structure,
+        structure: LinearModel,
         *,
-        modes: int,
+        modes: int | str | ModeSelection,
         damping: Damping = 0.0,
         damping_coupling: str = "full",
+        static_shapes: Sequence[Place] = (),
+        constraint_shapes: Sequence[Place] = (),
+        base_shapes: Sequence[str] = (),
+        static_damping: float | None = None,
     ) -> ModalBasis:
-        """Compute the lowest modes of a structure.
+        """Compute modes of a structure, and static shapes as their companions.
 
         Parameters
         ----------
         structure
             The structure, with its supports.
         modes
-            Number of modes.
+            Number of modes, the lowest ones; or ``"all"``, the complete basis.
         damping
             Ratio of critical damping: one for all modes, or one for each; or a rule such as
             ``RayleighDamping`` or ``StructuralDamping``. What dampers of the structure do to
             the modes is added.
         damping_coupling
             ``"full"``, or ``"diagonal"`` to neglect the damping that couples modes.
+        static_shapes
+            Where forces act that the modes left out would answer, such as those of stops: each
+            a node and a dof, ``("B", "dy")``, or a node and a direction. The displacement under
+            a unit force there, less what the modes have of it, joins the basis.
+        constraint_shapes
+            Places, as for ``static_shapes``: the displacement where one of them moves and the
+            others are held, less what the modes have of it, joins the basis.
+        base_shapes
+            Directions ``dx dy dz drx dry drz``: the displacement under a steady acceleration
+            of the base in each, less what the modes have of it, joins the basis.
+        static_damping
+            Ratio of critical damping of the static shapes, at the frequency that each has in
+            the canonical form; that of the modes where left out.
 
         Raises
         ------
         InputError
-            If a value cannot be used, or the structure has fewer free dofs than modes.
+            If a value cannot be used, the structure has fewer free dofs than modes, or a place
+            is unknown or held.
         """
-        number = count("modes", modes)
-        omega2, shapes = structure_modes(structure, number)
-        return cls._from_shapes(structure, omega2, shapes, damping, damping_coupling)
+        omega2, shapes = _modes(structure, mode_selection(modes))
+        beside = companions(
+            structure,
+            shapes,
+            static_shapes=static_shapes,
+            constraint_shapes=constraint_shapes,
+            base_shapes=base_shapes,
+        )
+        number, more = len(omega2), len(beside.omega2)
+        basis = cls._from_shapes(
+            structure,
+            np.concatenate([omega2, beside.omega2]),
+            np.hstack([shapes, beside.shapes]),
+            with_companions(damping, static_damping, number, more),
+            damping_coupling,
+        )
+        coordinates = beside.coordinates
+        return replace(
+            basis,
+            labels=(*_mode_labels(number), *beside.labels),
+            coordinates=None if coordinates is None else coordinates.after(number),
+            dropped=beside.dropped,
+        )
 
     @classmethod
     def from_vectors(
@@ -173,9 +213,7 @@ class ModalBasis:
             basis,
             labels=names,
             coordinates=found.coordinates,
-            dropped=tuple(
-                f"{names[i]} is left out: it depends on those before it" for i in found.dropped
-            ),
+            dropped=tuple(f"{names[i]} {DEPENDENT}" for i in found.dropped),
         )
 
     @classmethod
@@ -360,6 +398,19 @@ class ModalBasis:
     @cached_property
     def _rows(self) -> dict[Dof, int]:
         return {dof: number for number, dof in enumerate(self.dofs)}
+
+
+def _mode_labels(count: int) -> tuple[str, ...]:
+    return tuple(f"mode {number}" for number in range(1, count + 1))
+
+
+def _modes(model: LinearModel, selection: ModeSelection) -> tuple[FloatArray, FloatArray]:
+    """Return omega2 and shapes of the modes asked for."""
+    if isinstance(selection, LowestModes):
+        return structure_modes(model, selection.count)
+    if isinstance(selection, AllModes):
+        return structure_modes(model, len(model.free))
+    raise InputError("cannot be computed yet", key="modes", value=selection)
 
 
 def _items(shapes: object) -> list[tuple[object, object]]:

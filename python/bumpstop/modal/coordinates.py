@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from bumpstop.arguments import FloatArray
 
@@ -26,3 +29,21 @@ class UserCoordinates:
 
     to_canonical: FloatArray
     from_canonical: FloatArray
+
+    def of(self, kept: Sequence[int]) -> UserCoordinates:
+        """Return the same for some of the user's vectors."""
+        return UserCoordinates(self.to_canonical[:, kept], self.from_canonical[kept])
+
+    def after(self, count: int) -> UserCoordinates:
+        """Return the same with ``count`` vectors before, which are canonical as they are."""
+        return UserCoordinates(
+            *(_beside(count, matrix) for matrix in (self.to_canonical, self.from_canonical))
+        )
+
+
+def _beside(count: int, matrix: FloatArray) -> FloatArray:
+    """Return a block diagonal matrix of a unit matrix and another one."""
+    rows, columns = matrix.shape
+    both = np.eye(count + rows, count + columns)
+    both[count:, count:] = matrix
+    return both

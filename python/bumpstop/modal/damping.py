@@ -20,6 +20,7 @@ __all__ = [
     "StructuralDamping",
     "angular_frequencies",
     "modal_damping",
+    "with_companions",
 ]
 
 COUPLINGS = ("full", "diagonal")
@@ -214,6 +215,41 @@ def modal_damping(
         neglected = _coupling(matrix)
         matrix = np.diag(matrix.diagonal())
     return ModalDamping(_ratio_of(matrix.diagonal(), omega2), matrix, neglected)
+
+
+def with_companions(damping: Damping, own: float | None, modes: int, companions: int) -> Damping:
+    """Return the damping of modes and of static shapes beside them.
+
+    Parameters
+    ----------
+    damping
+        That of the modes.
+    own
+        Ratio of critical damping of the static shapes; as the modes where it is None.
+    modes, companions
+        How many there are.
+
+    Raises
+    ------
+    InputError
+        If the modes have a list of ratios and the static shapes none, or a rule gives both.
+
+    Examples
+    --------
+    >>> with_companions([0.01, 0.02], 0.05, 2, 1)
+    [0.01, 0.02, 0.05]
+    """
+    if own is None and (companions == 0 or isinstance(damping, DampingLaw)):
+        return damping
+    if isinstance(damping, DampingLaw):
+        hint = "leave it out: the rule holds for the static shapes too"
+        raise InputError("does not go with this damping", key="static_damping", hint=hint)
+    listed = np.ndim(damping) > 0
+    if own is None and listed:
+        hint = "with a list of ratios for the modes, give the static shapes their own"
+        raise InputError("is missing", key="static_damping", hint=hint)
+    ratio = not_negative("static_damping", damping if own is None else own)
+    return [*_ratios(damping, modes).tolist(), *[ratio] * companions]
 
 
 def angular_frequencies(omega2: FloatArray) -> FloatArray:

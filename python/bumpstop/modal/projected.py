@@ -34,7 +34,7 @@ def projected(matrix: SparseMatrix, shapes: FloatArray, *, skew: bool = False) -
     terms = shapes.T @ (matrix @ shapes)
     terms = 0.5 * (terms - terms.T if skew else terms + terms.T)
     sizes = np.abs(shapes)
-    negligible = ROUNDING * (sizes.T @ (matrix.absolute() @ sizes))
+    negligible = ROUNDING * (sizes.T @ (matrix.magnitudes() @ sizes))
     own = np.sqrt(np.abs(terms.diagonal()))
     negligible = np.maximum(negligible, UNCOUPLED * np.outer(own, own))
     terms[np.abs(terms) <= np.maximum(negligible, negligible.T)] = 0.0

@@ -14,8 +14,10 @@ from bumpstop.modal.independent import independent_vectors, mass_norms, without
 from bumpstop.modal.signs import largest_positive
 from bumpstop.structure.sparse import SparseMatrix
 
-__all__ = ["CanonicalVectors", "canonical_vectors"]
+__all__ = ["DEPENDENT", "RIGID", "CanonicalVectors", "canonical_vectors"]
 
+DEPENDENT = "is left out: it depends on those before it"
+"""What is said of a vector that is dropped."""
 DIAGONAL = 1e-11
 """Terms off the diagonal below this, relative to those on it, are rounding."""
 RIGID = 1e-6
@@ -146,5 +148,5 @@ def _energies(shapes: FloatArray, stiffness: SparseMatrix) -> FloatArray:
 def _cancelled(shapes: FloatArray, stiffness: SparseMatrix) -> FloatArray:
     """Return how large rounding can be in the stiffness of each shape."""
     sizes = np.abs(shapes)
-    noise: FloatArray = ROUNDING * np.sum(sizes * (stiffness.absolute() @ sizes), axis=0)
+    noise: FloatArray = ROUNDING * np.sum(sizes * (stiffness.magnitudes() @ sizes), axis=0)
     return noise

@@ -87,10 +87,6 @@ class SparseMatrix:
         diagonal[self.rows[on_diagonal]] = self.values[on_diagonal]
         return diagonal
 
-    def absolute(self) -> SparseMatrix:
-        """Return the matrix of the sizes of all entries."""
-        return SparseMatrix(self.shape, self.starts, self.rows, np.abs(self.values))
-
     def restricted(self, kept: IndexArray) -> SparseMatrix:
         """Return the square matrix of the rows and columns in ``kept``, ascending."""
         place = np.full(self.shape[0], -1, dtype=np.intp)

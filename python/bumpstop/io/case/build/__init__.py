@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bumpstop.io.case.build.basis import built_basis
+from bumpstop.io.case.build.basis import built_basis, static_places
 from bumpstop.io.case.build.gauges import built_gauges
 from bumpstop.io.case.build.initial import built_initial
 from bumpstop.io.case.build.laws import built_laws
@@ -63,11 +63,16 @@ class Builder:
 
     def _basis(self, case: CaseFile) -> ModalBasis:
         for known, basis in self._bases:
-            if all(getattr(known, table) == getattr(case, table) for table in _STRUCTURE):
+            if _same_basis(known, case):
                 return basis
         basis = built_basis(case)
         self._bases.append((case, basis))
         return basis
+
+
+def _same_basis(one: CaseFile, other: CaseFile) -> bool:
+    same = all(getattr(one, table) == getattr(other, table) for table in _STRUCTURE)
+    return same and static_places(one) == static_places(other)
 
 
 def _renamed(case: CaseFile) -> dict[str, str]:

@@ -19,7 +19,6 @@ __all__ = [
     "Length2",
     "Length3",
     "Mass",
-    "ModalDamping",
     "Moment3",
     "Number3",
     "Numbers",
@@ -28,6 +27,7 @@ __all__ = [
     "PositiveNumber",
     "PositiveTime",
     "Pressure",
+    "Ratio",
     "Stiffness",
     "Times",
     "Written",
@@ -140,16 +140,6 @@ def _array(item: Plain, length: int | None = None) -> dict[str, Any]:
     return {"type": "array", "items": item.schema, **bounds}
 
 
-def _one_or_many(dimension: Dimension, least: float) -> Plain:
-    """Return a field that is one number, or a list of them."""
-    one, many = _quantity(dimension, least=least), _series(dimension, least=least)
-
-    def read(value: object) -> object:
-        return (many if isinstance(value, list) else one).read(value)
-
-    return Plain(read, {"anyOf": [*one.schema["anyOf"], many.schema], "examples": [0.01]})
-
-
 def _read_written(value: object) -> float | str:
     """Keep a number or a string as it is: what it measures is known later."""
     return value if isinstance(value, str) else read_number(value, _NUMBER)
@@ -168,8 +158,8 @@ Stiffness = Annotated[float, _quantity(_STIFFNESS, above=0)]
 DampingConstant = Annotated[float, _quantity(_DAMPING, least=0)]
 PositiveTime = Annotated[float, _quantity(_TIME, above=0)]
 PositiveNumber = Annotated[float, _quantity(_NUMBER, above=0)]
+Ratio = Annotated[float, _quantity(_NUMBER, least=0)]
 PoissonRatio = Annotated[float, _quantity(_NUMBER)]
-ModalDamping = Annotated[float | list[float], _one_or_many(_NUMBER, least=0)]
 
 Length2 = Annotated[tuple[float, float], _vector(_LENGTH, length=2)]
 Length3 = Annotated[tuple[float, float, float], _vector(_LENGTH)]

@@ -22,6 +22,7 @@ __all__ = [
     "OneDof",
     "Text",
     "choice",
+    "read_node",
 ]
 
 _NAME = r"[\w-]+"
@@ -47,7 +48,7 @@ def _read_node_name(value: object) -> str:
     return _read_name(value)
 
 
-def _read_node(value: object) -> str:
+def read_node(value: object) -> str:
     """Return the name of a node, or of a point along a beam; whether it is there comes later."""
     if not isinstance(value, str) or not value.strip():
         raise InputError("must be the name of a node", value=value)
@@ -55,15 +56,15 @@ def _read_node(value: object) -> str:
 
 
 def _read_nodes(value: object) -> list[str]:
-    return ["all"] if value == "all" else read_list(value, _read_node, 'node names, or "all"')
+    return ["all"] if value == "all" else read_list(value, read_node, 'node names, or "all"')
 
 
 def _read_ends(value: object) -> tuple[str, ...]:
-    return tuple(read_list(value, _read_node, "node names", length=2))
+    return tuple(read_list(value, read_node, "node names", length=2))
 
 
 def _read_linked(value: object) -> tuple[str, ...]:
-    return tuple(read_list(value, _read_node, "node names"))
+    return tuple(read_list(value, read_node, "node names"))
 
 
 def choice(*words: str) -> Plain:
@@ -93,7 +94,7 @@ _STRINGS = {"type": "array", "items": _STRING, "minItems": 1}
 Text = Annotated[str, Plain(_read_text, _STRING)]
 Name = Annotated[str, Plain(_read_name, {**_STRING, "pattern": f"^{_NAME}$"})]
 NodeName = Annotated[str, Plain(_read_node_name, {**_STRING, "pattern": f"^{_NAME}$"})]
-Node = Annotated[str, Plain(_read_node, {**_STRING, "examples": ["B", "AB.3", "AB@0.462 m"]})]
+Node = Annotated[str, Plain(read_node, {**_STRING, "examples": ["B", "AB.3", "AB@0.462 m"]})]
 Nodes = Annotated[list[str], Plain(_read_nodes, {"anyOf": [{"const": "all"}, _STRINGS]})]
 BeamEnds = Annotated[tuple[str, str], Plain(_read_ends, {**_STRINGS, "minItems": 2, "maxItems": 2})]
 LinkedNodes = Annotated[tuple[str, ...], Plain(_read_linked, {**_STRINGS, "minItems": 2})]

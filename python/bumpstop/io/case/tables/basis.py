@@ -1,19 +1,50 @@
 """``[basis]``."""
 
+from typing import Annotated
+
 from pydantic import Field
 
-from bumpstop.io.case.fields.counts import Count
-from bumpstop.io.case.fields.quantities import ModalDamping
+from bumpstop.io.case.fields.damping import ModalDamping
+from bumpstop.io.case.fields.quantities import Ratio
+from bumpstop.io.case.fields.shapes import Modes, Places, PlacesOrStops
+from bumpstop.io.case.fields.words import Dofs, choice
 from bumpstop.io.case.tables.table import Table
 
 __all__ = ["BasisTable"]
 
 
 class BasisTable(Table):
-    """The modes on which the structure's motion is written."""
+    """The modes and static shapes on which the structure's motion is written."""
 
-    modes: Count = Field(description="Number of modes, the lowest ones, rigid-body modes included")
+    modes: Modes = Field(
+        description="Number of modes, the lowest ones, rigid-body modes included; or all there are"
+    )
     damping: ModalDamping = Field(
         default=0.0,
-        description="Damping ratio (1 is critical) of every mode, or a list: one a mode",
+        description="Damping ratio (1 is critical) of every mode; or a list: one a mode; or a "
+        "rule: `{ rayleigh = { alpha = 2.0, beta = 1e-5 } }`, "
+        "`{ rayleigh = { frequencies = [10, 50], ratios = [0.01, 0.02] } }` or "
+        "`{ structural = 0.02 }`, the loss factor. Dampers of the structure add to it",
+    )
+    damping_coupling: Annotated[str, choice("full", "diagonal")] = Field(
+        default="full", description="Whether to keep the damping that couples modes"
+    )
+    static_shapes: PlacesOrStops = Field(
+        default=[],
+        description="Displacements under a unit force that join the modes: one for each stop "
+        'along its normal, or places such as `["B", "dy"]` or `["B", [0, 0.6, 0.8]]`',
+    )
+    constraint_shapes: Places = Field(
+        default=[],
+        description="Displacements that join the modes: each of these places moves by one "
+        "while the others are held",
+    )
+    base_shapes: Dofs = Field(
+        default=[],
+        description="Displacements that join the modes: those under a steady acceleration of "
+        "the supports in these directions",
+    )
+    static_damping: Ratio | None = Field(
+        default=None,
+        description="Damping ratio of these static shapes; as the modes where left out",
     )

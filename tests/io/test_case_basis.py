@@ -1,0 +1,111 @@
+"""``[basis]`` of a case file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+from bumpstop.modal.damping import RayleighDamping, StructuralDamping
+
+SDNL32 = (Path(__file__).parents[2] / "cases" / "sdnl32" / "case.toml").read_text()
+ASKED = "modes = 10\ndamping = 0.01              # of critical, in each mode\n"
+
+
+def load(tmp_path: Path, basis: str) -> bs.Case:
+    assert ASKED in SDNL32
+    file = tmp_path / "case.toml"
+    file.write_text(SDNL32.replace(ASKED, basis))
+    return bs.load_case(file)
+
+
+def basis(tmp_path: Path, text: str) -> bs.ModalBasis:
+    problems = load(tmp_path, text).problems
+    assert problems["soft"].basis is problems["stiff"].basis
+    return problems["soft"].basis
+
+
+def test_a_static_shape_for_each_stop(tmp_path: Path) -> None:
+    found = basis(tmp_path, 'modes = 5\nstatic_shapes = "stops"\ndamping = 0.01\n')
+    assert found.labels[5:] == ("static shape of B.dy",)
+    named = basis(tmp_path, 'modes = 5\nstatic_shapes = [["B", "dy"]]\ndamping = 0.01\n')
+    np.testing.assert_array_equal(found.shapes, named.shapes)
+    along = basis(tmp_path, 'modes = 5\nstatic_shapes = [["B", [0, 2, 0]]]\n')
+    np.testing.assert_array_equal(found.shapes, along.shapes)
+
+
+def test_other_companions_and_all_modes(tmp_path: Path) -> None:
+    held = 'constraint_shapes = [["AB.5", "dy"], ["B", "dy"]]\n'
+    found = basis(tmp_path, f'modes = 4\n{held}base_shapes = ["dy"]\nstatic_damping = 1\n')
+    # Both places moving in proportion are the rigid mode: one of the two shapes is enough.
+    assert len(found.dropped) == 1
+    assert found.labels[4:] == ("constraint shape of AB.5.dy", "base acceleration along dy")
+    assert found.damping_ratio.tolist() == [0.0] * 4 + [1.0] * 2
+    assert len(basis(tmp_path, 'modes = "all"\n').omega2) == 21
+
+
+@pytest.mark.parametrize(
+    ("damping", "rule"),
+    [
+        ("{ rayleigh = { alpha = 2.0, beta = '20 us' } }", RayleighDamping(alpha=2.0, beta=2e-5)),
+        ("{ rayleigh = { beta = 1e-5 } }", RayleighDamping(beta=1e-5)),
+        (
+            "{ rayleigh = { frequencies = [80, '400 Hz'], ratios = [0.01, 0.02] } }",
+            RayleighDamping.from_ratios(frequencies=[80, 400], ratios=[0.01, 0.02]),
+        ),
+        ("{ structural = 0.02 }", StructuralDamping(0.02)),
+    ],
+)
+def test_rules_of_damping(damping: str, rule: Any, tmp_path: Path) -> None:
+    found = basis(tmp_path, f"modes = 5\ndamping = {damping}\n")
+    np.testing.assert_array_equal(found.damping, rule.modal(found.omega2))
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ('modes = "many"', r'basis.modes: must be a whole number, or "all" \(got .many'),
+        ("modes = 0", "basis.modes: must be 1 or more"),
+        ("modes = 5\ndamping = -0.01", "basis.damping: must not be negative"),
+        ("modes = 5\ndamping = [0.1, -0.1]", "basis.damping.1: must not be negative"),
+        ("modes = 5\ndamping = {}", "basis.damping: must have one key"),
+        ("modes = 5\ndamping = { raleigh = 1 }", "basis.damping.raleigh: unknown key .*'rayleigh'"),
+        ("modes = 5\ndamping = { structural = 'x' }", "basis.damping.structural: "),
+        ("modes = 5\ndamping = { rayleigh = 1 }", "basis.damping.rayleigh: must be a table"),
+        (
+            "modes = 5\ndamping = { rayleigh = { alpha = -1 } }",
+            "basis.damping.rayleigh.alpha: must not be negative",
+        ),
+        (
+            "modes = 5\ndamping = { rayleigh = { gamma = 1 } }",
+            "basis.damping.rayleigh.gamma: unknown key",
+        ),
+        (
+            "modes = 5\ndamping = { rayleigh = { ratios = [0.1, 0.1] } }",
+            "basis.damping.rayleigh.frequencies: is missing",
+        ),
+        (
+            "modes = 5\ndamping = { rayleigh = { frequencies = [1, 2], ratios = [0.01, 0.1] } }",
+            "basis.damping.rayleigh.ratios: would make alpha negative",
+        ),
+        (
+            "modes = 5\ndamping = { rayleigh = { frequencies = [1, 2], ratios = [0.1] } }",
+            "basis.damping.rayleigh.ratios: must be a list of 2 numbers",
+        ),
+        ('modes = 5\nstatic_shapes = "all"', "basis.static_shapes: must be a list of places"),
+        ('modes = 5\nstatic_shapes = [["B"]]', "basis.static_shapes.0: must be a node and a dof"),
+        ('modes = 5\nstatic_shapes = [["B", "y"]]', "basis.static_shapes.0: is not one of"),
+        ('modes = 5\nstatic_shapes = [["C", "dy"]]', r"basis.static_shapes.0: unknown node"),
+        ('modes = 5\nstatic_shapes = [["A", "dy"]]', "basis.static_shapes.0: nothing can move"),
+        ('modes = 5\nbase_shapes = ["y"]', "basis.base_shapes.0: is not one of"),
+        ("modes = 5\nstatic_damping = -1", "basis.static_damping: must not be negative"),
+        ('modes = 5\ndamping_coupling = "none"', "basis.damping_coupling: is not one of"),
+        ("modes = 5\ndamping = [0.1]", "basis.damping: must be one number"),
+    ],
+)
+def test_mistakes(text: str, says: str, tmp_path: Path) -> None:
+    with pytest.raises(bs.InputError, match=says):
+        load(tmp_path, text + "\n")
