@@ -152,3 +152,25 @@ def test_mass_rows_carry_the_whole_weight() -> None:
 def test_what_is_printed_is_short(hinged: ModalBasis) -> None:
     assert "omega2" in repr(hinged)
     assert "shapes" not in repr(hinged)
+
+
+def test_modal_masses_scale_the_shapes_and_keep_the_users_coordinates() -> None:
+    basis = ModalBasis.from_modes(
+        frequency=[3.0, 7.5], modal_mass=[4.0, 1.0], shapes={("P", "dx"): [2.0, 0.4]}
+    )
+    np.testing.assert_array_equal(basis.row("P", "dx"), [1.0, 0.4])
+    amplitudes = np.array([0.3, -0.2])
+    canonical = basis.canonical(amplitudes)
+    assert basis.row("P", "dx") @ canonical == pytest.approx(2.0 * 0.3 - 0.4 * 0.2)
+    np.testing.assert_allclose(basis.amplitudes(canonical), amplitudes)
+
+
+@pytest.mark.parametrize(
+    ("modal_mass", "message"),
+    [(0.0, "must be positive"), ([1.0], "one for each of the 2"), (["a", "b"], "be a number")],
+)
+def test_impossible_modal_masses(modal_mass: Any, message: str) -> None:
+    with pytest.raises(InputError, match=f"modal_mass: .*{message}"):
+        ModalBasis.from_modes(
+            frequency=[3.0, 7.5], modal_mass=modal_mass, shapes={("P", "dx"): [2.0, 0.4]}
+        )

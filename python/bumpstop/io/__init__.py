@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from bumpstop.io.matrices import read_matrices, write_matrices
+    from bumpstop.io.modes import ModeSet, read_modes
 
-__all__ = ["read_matrices", "write_matrices"]
+__all__ = ["ModeSet", "read_matrices", "read_modes", "write_matrices"]
 
 _HOME = {
+    "ModeSet": "modes",
     "read_matrices": "matrices",
+    "read_modes": "modes",
     "write_matrices": "matrices",
 }
 """Where each name lives."""

@@ -11,10 +11,10 @@ import numpy as np
 from bumpstop.arguments import FloatArray, did_you_mean, not_negative, one_of, series
 from bumpstop.errors import InputError
 from bumpstop.modal.companions import companions
-from bumpstop.modal.coordinates import UserCoordinates
+from bumpstop.modal.coordinates import UserCoordinates, scaled_coordinates
 from bumpstop.modal.damping import Damping, angular_frequencies, modal_damping, with_companions
 from bumpstop.modal.eigen import structure_modes
-from bumpstop.modal.given import given_labels, given_vectors
+from bumpstop.modal.given import given_labels, given_vectors, modal_masses
 from bumpstop.modal.places import Place
 from bumpstop.modal.projected import projected
 from bumpstop.modal.selection import AllModes, LowestModes, ModeSelection, mode_selection
@@ -247,6 +247,7 @@ class ModalBasis:
         *,
         frequency: Sequence[float],
         damping: Damping = 0.0,
+        modal_mass: float | Sequence[float] = 1.0,
         shapes: Mapping[Dof, Sequence[float]],
     ) -> ModalBasis:
         """Take modes from elsewhere: a measurement, another program, a formula.
@@ -258,8 +259,11 @@ class ModalBasis:
         damping
             Ratio of critical damping: one for all modes, or one for each; or a rule such as
             ``RayleighDamping``.
+        modal_mass
+            Modal mass in kg that belongs to the shapes: one for all modes, or one for each.
+            Displacements of a ModalState go with the shapes as they are given.
         shapes
-            Components of the modes, scaled to unit modal mass, by (node, dof).
+            Components of the modes by (node, dof), of any scale that ``modal_mass`` tells.
 
         Raises
         ------
@@ -278,12 +282,14 @@ class ModalBasis:
         rows = [_components(key, values, len(hertz)) for key, values in _items(shapes)]
         omega2 = (2.0 * np.pi * np.array(hertz)) ** 2
         ratio, matrix, _ = modal_damping(damping, omega2)
+        scale = np.sqrt(modal_masses(modal_mass, len(hertz)))
         return cls(
             omega2=omega2,
             damping_ratio=ratio,
             damping_matrix=matrix,
             dofs=tuple((str(node), str(dof)) for node, dof in shapes),
-            shapes=np.array(rows),
+            shapes=np.array(rows) / scale,
+            coordinates=scaled_coordinates(scale),
         )
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 
-__all__ = ["UserCoordinates"]
+__all__ = ["UserCoordinates", "scaled_coordinates"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,3 +47,10 @@ def _beside(count: int, matrix: FloatArray) -> FloatArray:
     both = np.eye(count + rows, count + columns)
     both[count:, count:] = matrix
     return both
+
+
+def scaled_coordinates(scale: FloatArray) -> UserCoordinates | None:
+    """Return the way between vectors and the same ones divided by ``scale``; None where it is 1."""
+    if np.all(scale == 1.0):
+        return None
+    return UserCoordinates(np.diag(scale), np.diag(1.0 / scale))

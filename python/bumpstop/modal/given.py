@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, name
+from bumpstop.arguments import FloatArray, name, positive, series
 from bumpstop.errors import InputError
 from bumpstop.structure.model import LinearModel
 
-__all__ = ["given_labels", "given_vectors"]
+__all__ = ["given_labels", "given_vectors", "modal_masses"]
 
 ROUNDING = 1e-9
 """Motion of a held dof below this, relative to the largest of its vector, is rounding."""
@@ -49,6 +49,23 @@ def given_labels(labels: Sequence[str], count: int) -> tuple[str, ...]:
         what = f"must be one for each of the {count} vectors"
         raise InputError(what, key="labels", value=f"{len(labels)} labels")
     return tuple(name("labels", label) for label in labels)
+
+
+def modal_masses(modal_mass: object, modes: int) -> FloatArray:
+    """Return one modal mass a mode (modes,) in kg, from one for all or one for each.
+
+    Raises
+    ------
+    InputError
+        If a mass is not positive, or their number is not that of the modes.
+    """
+    if np.ndim(modal_mass) == 0:  # type: ignore[arg-type]  # object: the check is what is done here
+        return np.full(modes, positive("modal_mass", modal_mass))
+    masses = series("modal_mass", modal_mass)
+    if len(masses) != modes:
+        what = f"must be one number, or one for each of the {modes} modes"
+        raise InputError(what, key="modal_mass", value=modal_mass)
+    return np.array([positive("modal_mass", mass) for mass in masses])
 
 
 def _table(vectors: object, rows: int) -> FloatArray:

@@ -1,0 +1,6 @@
+"""Modes of other programs and of measurements: one file a format."""
+
+from bumpstop.io.modes.mode_set import ModeSet
+from bumpstop.io.modes.read import read_modes
+
+__all__ = ["ModeSet", "read_modes"]
