@@ -19,6 +19,14 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.modal.substructure.assembly import Assembly
+    from bumpstop.modal.substructure.component import Component
+    from bumpstop.modal.substructure.craig_bampton import craig_bampton
+    from bumpstop.modal.substructure.free_interface import free_interface
+    from bumpstop.modal.substructure.joint import Joint
+    from bumpstop.modal.substructure.placed import Placed
+    from bumpstop.modal.substructure.reduced import ReducedComponent
+    from bumpstop.modal.substructure.rotation import Rotation
     from bumpstop.problem import Problem
     from bumpstop.response import Response
     from bumpstop.simulate import simulate
@@ -40,65 +48,81 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Assembly",
     "Beam",
     "BumpstopError",
     "Case",
     "Circle",
+    "Component",
     "ComputationError",
     "Gauge",
     "GeneralSection",
     "Gravity",
     "InputError",
+    "Joint",
     "Material",
     "Matrices",
     "ModalBasis",
     "ModalState",
     "NodalForce",
+    "Placed",
     "Plane",
     "PointMass",
     "Problem",
     "Rectangle",
+    "ReducedComponent",
     "Relation",
     "Response",
     "RigidLink",
     "RigidRotation",
+    "Rotation",
     "Section",
     "Stop",
     "Structure",
     "Support",
     "Tube",
+    "craig_bampton",
+    "free_interface",
     "load_case",
     "simulate",
 ]
 
 _HOME = {
+    "Assembly": "modal.substructure.assembly",
     "Beam": "structure.beam",
     "BumpstopError": "errors",
     "Case": "io.case",
     "Circle": "structure.sections.circle",
+    "Component": "modal.substructure.component",
     "ComputationError": "errors",
     "Gauge": "structure.gauge",
     "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
     "InputError": "errors",
+    "Joint": "modal.substructure.joint",
     "Material": "structure.material",
     "Matrices": "structure.matrices",
     "ModalBasis": "modal.basis",
     "ModalState": "loads.initial",
     "NodalForce": "loads.force",
+    "Placed": "modal.substructure.placed",
     "Plane": "laws.obstacle",
     "PointMass": "structure.mass",
     "Problem": "problem",
-    "Relation": "structure.relation",
     "Rectangle": "structure.sections.rectangle",
+    "ReducedComponent": "modal.substructure.reduced",
+    "Relation": "structure.relation",
     "Response": "response",
     "RigidLink": "structure.link",
     "RigidRotation": "loads.initial",
+    "Rotation": "modal.substructure.rotation",
     "Section": "structure.sections.section",
     "Stop": "laws.stop",
     "Structure": "structure.structure",
     "Support": "structure.support",
     "Tube": "structure.sections.tube",
+    "craig_bampton": "modal.substructure.craig_bampton",
+    "free_interface": "modal.substructure.free_interface",
     "load_case": "io.case",
     "simulate": "simulate",
 }

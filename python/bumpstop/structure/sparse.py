@@ -151,15 +151,21 @@ class SparseMatrix:
         A symmetric matrix stays symmetric, and a skew-symmetric one skew-symmetric, to the bit.
         """
         product = expansion.transposed().times(self.times(expansion))
+        sign = self.mirror_sign()
+        if sign is None:
+            return product
+        return product.plus(product.transposed().scaled(sign)).scaled(0.5)
+
+    def mirror_sign(self) -> float | None:
+        """Return 1.0 for a matrix that is symmetric to the bit, -1.0 for a skew one, else None."""
         across = self.transposed()
-        if not np.array_equal(across.starts, self.starts):
-            return product
-        if not np.array_equal(across.rows, self.rows):
-            return product
+        same_places = np.array_equal(across.starts, self.starts) and np.array_equal(
+            across.rows, self.rows
+        )
         for sign in (1.0, -1.0):
-            if np.array_equal(across.values, sign * self.values):
-                return product.plus(product.transposed().scaled(sign)).scaled(0.5)
-        return product
+            if same_places and np.array_equal(across.values, sign * self.values):
+                return sign
+        return None
 
     def to_dense(self) -> FloatArray:
         """Return the matrix as a NumPy array."""
