@@ -10,31 +10,16 @@ import xarray as xr
 
 import bumpstop as bs
 
+from ..hinged_beam import SWING, end_stop, hinged_modes
+
 
 @pytest.fixture(scope="module")
 def thrown_beam() -> bs.Response:
     """The beam of SDNL32 with 4 elements, thrown against its stop."""
-    structure = bs.Structure(
-        nodes={"A": (0, 0, 0), "B": (0.783, 0, 0)},
-        beams=[
-            bs.Beam(
-                "AB",
-                nodes=("A", "B"),
-                elements=4,
-                theory="timoshenko",
-                material=bs.Material(young_modulus=67e9, poisson_ratio=0.0, density=2400.0),
-                section=bs.Rectangle(height=0.014, width=0.014),
-            )
-        ],
-        supports=[
-            bs.Support(nodes="all", fixed=("dx", "dz", "drx", "dry")),
-            bs.Support(nodes=("A",), fixed=("dy",)),
-        ],
-    )
     problem = bs.Problem(
-        bs.ModalBasis.from_structure(structure, modes=3, damping=0.01),
-        laws=[bs.Stop("spring", node="B", normal=(0, 1, 0), stiffness=18e3)],
-        initial=bs.RigidRotation(about="A", rate=(0, 0, -3.8)),
+        hinged_modes(elements=4, modes=3),
+        laws=[end_stop(18e3)],
+        initial=SWING,
         duration=0.02,
         sample=1e-4,
         gauges=[bs.Gauge("strain", beam="AB", at=0.462, fibre=(0.0, 0.007))],

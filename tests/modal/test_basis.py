@@ -6,7 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bumpstop import Beam, Gauge, InputError, Material, ModalBasis, Rectangle, Structure, Support
+from bumpstop import Beam, Gauge, InputError, Material, ModalBasis, Rectangle, Structure
+
+from ..hinged_beam import hinged_modes
 
 MODES: dict[str, Any] = {
     "frequency": [0.0, 3.0, 7.5],
@@ -17,23 +19,7 @@ MODES: dict[str, Any] = {
 
 @pytest.fixture(scope="module")
 def hinged() -> ModalBasis:
-    structure = Structure(
-        nodes={"A": (0, 0, 0), "B": (0.783, 0, 0)},
-        beams=[
-            Beam(
-                "AB",
-                nodes=("A", "B"),
-                elements=10,
-                material=Material(young_modulus=67e9, poisson_ratio=0.0, density=2400.0),
-                section=Rectangle(height=0.014, width=0.014),
-            )
-        ],
-        supports=[
-            Support(nodes="all", fixed=("dx", "dz", "drx", "dry")),
-            Support(nodes=("A",), fixed=("dy",)),
-        ],
-    )
-    return ModalBasis.from_structure(structure, modes=10, damping=0.01)
+    return hinged_modes()
 
 
 def test_modes_from_elsewhere() -> None:

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from bumpstop import (
     Beam,
     InputError,
-    Material,
     ModalBasis,
     PointMass,
     Rectangle,
@@ -20,13 +19,11 @@ from bumpstop.modal.eigen import MOST_DOFS
 from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.frame import rigid_motions
 
+from ..hinged_beam import ALLOY, BAR, HINGE, IN_PLANE
+
 Array = NDArray[np.float64]
 
-ALLOY = Material(young_modulus=67e9, poisson_ratio=0.0, density=2400.0)
-BAR = Rectangle(height=0.014, width=0.014)
 STRIP = Rectangle(height=0.03, width=0.01)
-BENDING = Support(nodes="all", fixed=("dx", "dz", "drx", "dry"))
-HINGE = Support(nodes=("A",), fixed=("dy",))
 
 
 def beam(supports: list[Support], elements: int = 10, section: Rectangle = BAR) -> Structure:
@@ -88,7 +85,7 @@ def test_sdnl32_modes_against_many_digits() -> None:
     """The assembled matrices of the clean model, solved with 40 digits."""
     import mpmath as mp
 
-    structure = beam([BENDING, HINGE])
+    structure = beam([IN_PLANE, HINGE])
     free = structure.free
     basis = ModalBasis.from_structure(structure, modes=10)
     with mp.workdps(40):
@@ -107,7 +104,7 @@ def test_sdnl32_modes_against_many_digits() -> None:
 
 
 def test_the_hinged_beam_turns_rigidly() -> None:
-    structure = beam([BENDING, HINGE])
+    structure = beam([IN_PLANE, HINGE])
     basis = ModalBasis.from_structure(structure, modes=21)
     assert basis.omega2[0] == 0.0
     assert np.all(basis.omega2[1:] > 0.0)
@@ -121,7 +118,7 @@ def test_the_hinged_beam_turns_rigidly() -> None:
 
 
 def test_all_of_a_velocity_field_of_rotation_goes_to_the_rigid_mode() -> None:
-    structure = beam([BENDING, HINGE])
+    structure = beam([IN_PLANE, HINGE])
     basis = ModalBasis.from_structure(structure, modes=10)
     rates = basis.project_field(structure.rigid_field(rotation=(0.0, 0.0, -3.8)))
     assert abs(rates[0] * basis.row("B", "dy")[0] + 3.8 * 0.783) < 1e-14
@@ -196,7 +193,7 @@ def test_pieces_apart_have_their_own_rigid_modes() -> None:
         nodes={"A": (0, 0, 0), "B": (0.783, 0, 0), "P": (2, 0, 0)},
         beams=[Beam("AB", nodes=("A", "B"), elements=4, material=ALLOY, section=BAR)],
         masses=[PointMass("ball", node="P", mass=4.0)],
-        supports=[BENDING, HINGE, Support(nodes="P", fixed=("drz",))],
+        supports=[IN_PLANE, HINGE, Support(nodes="P", fixed=("drz",))],
     )
     basis = ModalBasis.from_structure(structure, modes=4)
     assert list(basis.omega2 == 0.0) == [True, True, False, False]
@@ -275,7 +272,7 @@ def test_largest_component_is_positive() -> None:
 
 
 def test_more_modes_than_free_dofs() -> None:
-    structure = beam([BENDING, HINGE])
+    structure = beam([IN_PLANE, HINGE])
     assert len(ModalBasis.from_structure(structure, modes=21).omega2) == 21
     with pytest.raises(
         InputError, match=r"modes: more modes than free dofs \(got 22\); .* 21 free"

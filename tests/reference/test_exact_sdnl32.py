@@ -5,6 +5,7 @@ import pytest
 
 import bumpstop as bs
 
+from ..hinged_beam import SWING, end_stop, hinged_modes
 from . import sdnl32
 from .comparison import core_events
 from .precise import PreciseSolution
@@ -36,27 +37,10 @@ def test_the_stop_sees_what_the_oracle_sees(stiffness: float) -> None:
 
 def whole_chain(stiffness: float) -> bs.Problem:
     """Return the published problem as a user states it."""
-    structure = bs.Structure(
-        nodes={"A": (0, 0, 0), "B": (0.783, 0, 0)},
-        beams=[
-            bs.Beam(
-                "AB",
-                nodes=("A", "B"),
-                elements=10,
-                theory="timoshenko",
-                material=bs.Material(young_modulus=67e9, poisson_ratio=0.0, density=2400.0),
-                section=bs.Rectangle(height=0.014, width=0.014),
-            )
-        ],
-        supports=[
-            bs.Support(nodes="all", fixed=("dx", "dz", "drx", "dry")),
-            bs.Support(nodes=("A",), fixed=("dy",)),
-        ],
-    )
     return bs.Problem(
-        bs.ModalBasis.from_structure(structure, modes=10, damping=0.01),
-        laws=[bs.Stop("spring", node="B", normal=(0, 1, 0), gap=0.0, stiffness=stiffness)],
-        initial=bs.RigidRotation(about="A", rate=(0, 0, -3.8)),
+        hinged_modes(),
+        laws=[end_stop(stiffness)],
+        initial=SWING,
         duration=sdnl32.DURATION,
         sample=1e-5,
     )
