@@ -40,6 +40,59 @@ pub enum Error {
     /// The mass matrix is not positive definite.
     #[error("the mass matrix is not positive definite: some motion has no mass")]
     SingularMass,
+    /// Arrays of a sparse matrix do not fit together, or two matrices not to each other.
+    #[error("the sizes or places of {what} do not fit together")]
+    Sizes {
+        /// The matrix, or the matrices.
+        what: &'static str,
+    },
+    /// A matrix is not its own transpose.
+    #[error("{what} is not symmetric: its entries ({row}, {column}) and ({column}, {row}) differ")]
+    NotSymmetric {
+        /// The matrix.
+        what: &'static str,
+        /// Row of an entry, from 0.
+        row: usize,
+        /// Column of it.
+        column: usize,
+    },
+    /// A mass on the diagonal is negative.
+    #[error("the mass of dof {unknown} (counted from 0) is negative")]
+    NegativeMass {
+        /// Number of the dof.
+        unknown: usize,
+    },
+    /// Some motion has a negative kinetic energy.
+    #[error("the mass matrix is not positive: some motion has a negative kinetic energy")]
+    IndefiniteMass,
+    /// A matrix has no inverse, to rounding.
+    #[error(
+        "the matrix is singular at unknown {unknown} (counted from 0): what is left of its diagonal is {ratio:.0e} of it"
+    )]
+    Singular {
+        /// Number of the unknown.
+        unknown: usize,
+        /// The pivot relative to the diagonal.
+        ratio: f64,
+    },
+    /// Numbers left the range of floating point in a factorisation.
+    #[error("the numbers of the matrices are too large or too far apart to be factored")]
+    Factorisation,
+    /// Memory does not suffice.
+    #[error("there is not enough memory for the factored matrix")]
+    Memory,
+    /// Inertia and eigenvalues tell different numbers of modes.
+    #[error(
+        "the {told} modes that the inertia tells from {low:e} to {high:e} rad2/s2 were not found: the matrices are too badly conditioned to be certain"
+    )]
+    Uncertain {
+        /// Modes that there must be.
+        told: usize,
+        /// Lower end of the range.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
     /// More modes were asked for than there are.
     #[error("{asked} modes were asked for, but the matrices have {available}")]
     TooManyModes {

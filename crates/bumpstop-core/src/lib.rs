@@ -16,4 +16,5 @@ pub mod modes;
 pub mod number;
 pub mod obstacle;
 pub mod problem;
+pub mod sparse;
 pub mod system;

@@ -1,20 +1,11 @@
 //! Natural modes of small structures: the dense symmetric eigenproblem `K x = omega^2 M x`.
 
+use super::Modes;
 use crate::error::{Error, Result};
 use faer::{Mat, MatRef, Side, prelude::*};
 
 /// The dense matrix type of this module.
 pub type Matrix = Mat<f64>;
-
-/// Modes of an undamped structure.
-#[derive(Debug, Clone)]
-pub struct Modes {
-    /// Squared angular frequencies in ascending order, in rad2/s2.
-    pub omega2: Vec<f64>,
-    /// Shapes with unit modal mass, one column a mode, the component of largest magnitude
-    /// positive.
-    pub shapes: Mat<f64>,
-}
 
 /// The `count` lowest modes of `K x = omega^2 M x`, K symmetric, M symmetric positive definite.
 ///
