@@ -6,17 +6,69 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+Columns = tuple[Index, Index, Array]
+"""Compressed columns: where each starts, the row of each entry, its value."""
+Count = tuple[float, int]
+"""A squared angular frequency, and how many eigenvalues lie below it."""
 
 class CoreError(Exception):
     """The core refused its input or could not finish; the message says why."""
 
 def symmetric_modes(stiffness: Array, mass: Array, count: int) -> tuple[Array, Array]:
-    """Return the lowest modes of ``K x = omega2 M x``.
+    """Return all eigenvalues of ``K x = omega2 M x``, and the shapes of the lowest.
 
-    Parameters are dense (n, n) symmetric matrices, M positive definite. Returns
-    ``omega2`` (count,) in ascending order and shapes (n, count) with unit modal mass,
-    the component of largest magnitude positive.
+    Parameters are dense (n, n) symmetric matrices, M positive definite. Returns ``omega2``
+    (n,) in ascending order and shapes (n, count) with unit modal mass, the component of
+    largest magnitude positive.
     """
+
+def sparse_modes(
+    stiffness: Columns,
+    mass: Columns,
+    rigid: Array,
+    *,
+    lowest: int | None = None,
+    band: tuple[float, float] | None = None,
+    around: tuple[float, int] | None = None,
+) -> tuple[Array, Array, Count | None, Count]:
+    """Return the flexible modes of a range that holds those asked for, and proves to hold all.
+
+    ``rigid`` (n, r) are all motions that strain nothing, orthonormal in M; ``band`` and the
+    shift of ``around`` are squared angular frequencies. Returns ``omega2`` (m,) in ascending
+    order, shapes (n, m) with unit modal mass, and the counts of eigenvalues, rigid ones
+    included, at the lower end of the range (None where it has none) and at the upper.
+    """
+
+def sturm_count(stiffness: Columns, mass: Columns, points: list[float]) -> Count:
+    """Count the eigenvalues below the first of the points that is not itself one."""
+
+class SparseFactor:
+    """A factored sparse symmetric matrix (n, n), definite or not."""
+
+    def __init__(self, matrix: Columns) -> None: ...
+    @property
+    def negative_pivots(self) -> int:
+        """Number of negative eigenvalues of the matrix."""
+    @property
+    def weakest_pivot(self) -> float:
+        """The smallest pivot, relative to the diagonal where it stands."""
+    @property
+    def singular_at(self) -> int | None:
+        """Number of the unknown where nothing but rounding is left of the matrix, if any."""
+    def solve(self, rhs: Array) -> Array:
+        """Solve for right-hand sides (n, m); raises CoreError if the matrix is singular."""
+
+def assemble(
+    rows: Index, columns: Index, values: Array, shape: tuple[int, int]
+) -> tuple[Index, Index, Array]:
+    """Add up triplets, in the order given, into starts, rows and values of columns."""
+
+def sparse_product(matrix: Columns, height: int, vectors: Array) -> Array:
+    """Return the product of a matrix (height, columns) with vectors (columns, m)."""
+
+def component_labels(size: int, rows: Index, columns: Index) -> Index:
+    """Return for each vertex of a graph the lowest vertex that it is joined to, (size,)."""
 
 class System:
     """``q'' + C q' + diag(omega2) q = f``, unit modal mass."""

@@ -30,5 +30,6 @@ def test_rounding_counts_for_nothing() -> None:
 
 def test_components() -> None:
     rows, columns = np.array([5, 1, 3, 2]), np.array([1, 3, 3, 4])
-    assert components(6, rows, columns) == [[0], [1, 3, 5], [2, 4]]
+    found = [group.tolist() for group in components(6, rows, columns)]
+    assert found == [[0], [1, 3, 5], [2, 4]]
     assert components(0, rows[:0], columns[:0]) == []

@@ -5,6 +5,7 @@
 //! through time and leaves a [`history::History`] behind, which can be sampled anywhere and
 //! keeps the energy ledger. Nothing here knows nodes, units or files.
 
+pub mod components;
 pub mod energy;
 pub mod error;
 pub mod forcing;

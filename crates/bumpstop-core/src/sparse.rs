@@ -52,25 +52,24 @@ impl SparseMatrix {
         Ok(sum)
     }
 
-    /// Takes a square matrix from its arrays.
+    /// Takes a matrix of so many rows from its arrays.
     ///
     /// # Errors
     /// [`Error::Sizes`] where they do not fit together, [`Error::NotFinite`].
-    pub fn square(
+    pub fn new(
         what: &'static str,
+        height: usize,
         starts: Vec<usize>,
         rows: Vec<usize>,
         values: Vec<f64>,
     ) -> Result<Self> {
-        let height = starts.len().saturating_sub(1);
         let fits = starts.first() == Some(&0)
             && starts.is_sorted()
             && starts.last() == Some(&rows.len())
             && rows.len() == values.len();
         let ascending = |column: &[usize]| {
-            let (first, last) = (column[0], column[1]);
-            rows[first..last].is_sorted_by(|a, b| a < b)
-                && rows[first..last].last().is_none_or(|&row| row < height)
+            let rows = &rows[column[0]..column[1]];
+            rows.is_sorted_by(|a, b| a < b) && rows.last().is_none_or(|&row| row < height)
         };
         if !fits || !starts.windows(2).all(ascending) {
             return Err(Error::Sizes { what });
@@ -82,6 +81,29 @@ impl SparseMatrix {
             rows,
             values,
         })
+    }
+
+    /// The product with `count` vectors, row by row, (columns, count); the same way round.
+    ///
+    /// # Errors
+    /// [`Error::Sizes`] where there are more or fewer rows than columns of the matrix.
+    pub fn product(&self, vectors: &[f64], count: usize) -> Result<Vec<f64>> {
+        if vectors.len() != self.width() * count {
+            return Err(Error::Sizes {
+                what: "a matrix and what it is multiplied with",
+            });
+        }
+        let mut product = vec![0.0; self.height * count];
+        for column in 0..self.width() {
+            let vector = &vectors[column * count..(column + 1) * count];
+            for (row, value) in self.column(column) {
+                let sums = &mut product[row * count..(row + 1) * count];
+                for (sum, component) in sums.iter_mut().zip(vector) {
+                    *sum += value * component;
+                }
+            }
+        }
+        Ok(product)
     }
 
     /// Number of columns.
@@ -147,12 +169,24 @@ mod tests {
     }
 
     #[test]
+    fn products_with_several_vectors() {
+        let (rows, columns) = ([0, 1, 1], [0, 0, 2]);
+        let matrix =
+            SparseMatrix::from_triplets((2, 3), &rows, &columns, &[2.0, 3.0, 4.0]).unwrap();
+        let product = matrix
+            .product(&[1.0, 10.0, 0.0, 0.0, 5.0, 50.0], 2)
+            .unwrap();
+        assert_eq!(product, [2.0, 20.0, 23.0, 230.0]);
+        assert!(matrix.product(&[1.0, 2.0], 1).is_err());
+    }
+
+    #[test]
     fn arrays_that_do_not_fit_together_are_refused() {
         let outside = SparseMatrix::from_triplets((2, 2), &[2], &[0], &[1.0]);
         assert_eq!(outside.unwrap_err(), Error::Sizes { what: "triplets" });
-        let twice = SparseMatrix::square("K", vec![0, 2, 2], vec![1, 1], vec![1.0, 2.0]);
+        let twice = SparseMatrix::new("K", 2, vec![0, 2, 2], vec![1, 1], vec![1.0, 2.0]);
         assert_eq!(twice.unwrap_err(), Error::Sizes { what: "K" });
-        let nan = SparseMatrix::square("K", vec![0, 1], vec![0], vec![f64::NAN]);
+        let nan = SparseMatrix::new("K", 1, vec![0, 1], vec![0], vec![f64::NAN]);
         assert_eq!(nan.unwrap_err(), Error::NotFinite { what: "K" });
     }
 }

@@ -1,8 +1,10 @@
 //! Python bindings of the core: convert, release the GIL, call, convert back.
 
 mod history;
+mod modes;
 mod parts;
 mod simulate;
+mod sparse;
 
 use bumpstop_core::error::Error;
 use pyo3::exceptions::PyException;
@@ -28,7 +30,13 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<parts::System>()?;
     module.add_class::<parts::Stop>()?;
     module.add_class::<history::History>()?;
-    module.add_function(wrap_pyfunction!(parts::symmetric_modes, module)?)?;
+    module.add_class::<sparse::SparseFactor>()?;
+    module.add_function(wrap_pyfunction!(modes::symmetric_modes, module)?)?;
+    module.add_function(wrap_pyfunction!(modes::sparse_modes, module)?)?;
+    module.add_function(wrap_pyfunction!(modes::sturm_count, module)?)?;
+    module.add_function(wrap_pyfunction!(sparse::assemble, module)?)?;
+    module.add_function(wrap_pyfunction!(sparse::sparse_product, module)?)?;
+    module.add_function(wrap_pyfunction!(sparse::component_labels, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::stability_limit, module)?)?;
     Ok(())

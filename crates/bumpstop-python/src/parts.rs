@@ -1,12 +1,9 @@
-//! What a problem is made of, and the eigenproblem.
+//! What a problem is made of.
 
 use crate::core_error;
-use bumpstop_core::{law, modes, system};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, ndarray::Array2};
+use bumpstop_core::{law, system};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-
-type Vector<'py> = Bound<'py, PyArray1<f64>>;
-type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
 /// `q'' + C q' + diag(omega2) q = f`, unit modal mass.
 #[pyclass(frozen, module = "bumpstop._core")]
@@ -33,26 +30,6 @@ impl Stop {
             .map(Self)
             .map_err(core_error)
     }
-}
-
-/// Lowest modes of `K x = omega2 M x`: omega2 (count,) and shapes (n, count).
-#[pyfunction]
-pub fn symmetric_modes<'py>(
-    py: Python<'py>,
-    stiffness: PyReadonlyArray2<f64>,
-    mass: PyReadonlyArray2<f64>,
-    count: usize,
-) -> PyResult<(Vector<'py>, Matrix<'py>)> {
-    let matrix = |array: &PyReadonlyArray2<f64>| {
-        let view = array.as_array();
-        modes::Matrix::from_fn(view.nrows(), view.ncols(), |r, c| view[(r, c)])
-    };
-    let (stiffness, mass) = (matrix(&stiffness), matrix(&mass));
-    let found = py
-        .detach(|| modes::symmetric_modes(stiffness.as_ref(), mass.as_ref(), count))
-        .map_err(core_error)?;
-    let shapes = Array2::from_shape_fn((stiffness.nrows(), count), |(r, c)| found.shapes[(r, c)]);
-    Ok((found.omega2.into_pyarray(py), shapes.into_pyarray(py)))
 }
 
 /// The numbers of an array of any layout.

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from bumpstop._core import component_labels
 from bumpstop.structure.sparse import IndexArray
 
 __all__ = ["components"]
 
 
-def components(size: int, rows: IndexArray, columns: IndexArray) -> list[list[int]]:
+def components(size: int, rows: IndexArray, columns: IndexArray) -> list[IndexArray]:
     """Return the connected components of a graph of ``size`` vertices.
 
     Edges join ``rows[i]`` and ``columns[i]``. Components are in the order of their lowest
@@ -15,22 +18,12 @@ def components(size: int, rows: IndexArray, columns: IndexArray) -> list[list[in
 
     Examples
     --------
-    >>> import numpy as np
     >>> components(4, np.array([0, 3]), np.array([2, 3]))
-    [[0, 2], [1], [3]]
+    [array([0, 2]), array([1]), array([3])]
     """
-    parent = list(range(size))
-
-    def root(vertex: int) -> int:
-        while parent[vertex] != vertex:
-            parent[vertex] = parent[parent[vertex]]
-            vertex = parent[vertex]
-        return vertex
-
-    for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
-        low, high = sorted((root(row), root(column)))
-        parent[high] = low
-    groups: dict[int, list[int]] = {}
-    for vertex in range(size):
-        groups.setdefault(root(vertex), []).append(vertex)
-    return list(groups.values())
+    if size == 0:
+        return []
+    labels = component_labels(size, rows, columns)
+    order = np.argsort(labels, kind="stable")
+    firsts = np.flatnonzero(np.diff(labels[order])) + 1
+    return np.split(order, firsts)

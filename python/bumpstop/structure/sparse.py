@@ -1,13 +1,15 @@
-"""A small sparse matrix, so that assembling needs nothing but NumPy."""
+"""A small sparse matrix, so that assembling needs no SciPy."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bumpstop._core import assemble, sparse_product
 from bumpstop.arguments import FloatArray
 
 if TYPE_CHECKING:
@@ -53,16 +55,7 @@ class SparseMatrix:
         array([[3., 0.],
                [0., 5.]])
         """
-        keys = columns * shape[0] + rows
-        order = _stable_order(keys, shape[0] * shape[1])
-        keys = keys[order]
-        new = np.ones(len(keys), dtype=bool)
-        new[1:] = keys[1:] != keys[:-1]
-        first = np.flatnonzero(new)
-        summed = np.add.reduceat(values[order], first) if len(first) else np.zeros(0)
-        places = order[first]
-        starts = np.searchsorted(columns[places], np.arange(shape[1] + 1))
-        return cls(shape, starts, rows[places], summed)
+        return cls(shape, *assemble(rows, columns, values, shape))
 
     @classmethod
     def zeros(cls, size: int) -> SparseMatrix:
@@ -74,6 +67,11 @@ class SparseMatrix:
     def selection(cls, size: int, kept: IndexArray) -> SparseMatrix:
         """Return the matrix (size, kept) that puts values at the rows ``kept``, zeros elsewhere."""
         return cls((size, len(kept)), np.arange(len(kept) + 1), kept, np.ones(len(kept)))
+
+    @property
+    def arrays(self) -> tuple[IndexArray, IndexArray, FloatArray]:
+        """What the core takes for the matrix: ``starts``, ``rows`` and ``values``."""
+        return self.starts, self.rows, self.values
 
     @property
     def columns(self) -> IndexArray:
@@ -181,20 +179,6 @@ class SparseMatrix:
 
     def __matmul__(self, field: FloatArray) -> FloatArray:
         """Return the product with a vector (columns,) or with several, (columns, m)."""
-        columns = field.reshape(self.shape[1], -1)[self.columns].T
-        products = [
-            np.bincount(self.rows, self.values * column, minlength=self.shape[0])
-            for column in columns
-        ]
-        product: FloatArray = np.array(products, dtype=np.float64).T
+        vectors = field.reshape(self.shape[1], math.prod(field.shape[1:]))
+        product = sparse_product(self.arrays, self.shape[0], vectors)
         return product.reshape(self.shape[0], *field.shape[1:])
-
-
-def _stable_order(keys: IndexArray, largest: int) -> IndexArray:
-    """Return the order that sorts keys from 0 to ``largest``, equal ones in their own order."""
-    bits = len(keys).bit_length()
-    if largest.bit_length() + bits > 63:
-        return np.argsort(keys, kind="stable")
-    # Numbers are sorted many times faster than places: each key carries its own place.
-    order: IndexArray = np.sort((keys << bits) | np.arange(len(keys))) & ((1 << bits) - 1)
-    return order

@@ -7,7 +7,8 @@ use faer::{Mat, MatRef, Side, prelude::*};
 /// The dense matrix type of this module.
 pub type Matrix = Mat<f64>;
 
-/// The `count` lowest modes of `K x = omega^2 M x`, K symmetric, M symmetric positive definite.
+/// All eigenvalues of `K x = omega^2 M x`, K symmetric, M symmetric positive definite, and the
+/// `count` lowest shapes, the component of largest magnitude of each positive.
 ///
 /// The problem is turned over, `M x = theta (K + sigma M) x` with `theta = 1/(omega^2 + sigma)`,
 /// so that the low modes are the large eigenvalues and keep full relative accuracy however
@@ -29,10 +30,7 @@ pub fn symmetric_modes(stiffness: MatRef<f64>, mass: MatRef<f64>, count: usize) 
     let turned = generalised(mass, shifted.as_ref())?;
     let (omega2, shapes) = match turned {
         Some((theta, shapes)) => low_modes(&theta, &shapes, shift, count),
-        None => (
-            direct.0[..count].to_vec(),
-            direct.1.subcols(0, count).to_owned(),
-        ),
+        None => (direct.0, direct.1.subcols(0, count).to_owned()),
     };
     Ok(Modes {
         omega2,
@@ -76,9 +74,7 @@ fn shift_for(omega2: &[f64]) -> f64 {
 
 fn low_modes(theta: &[f64], shapes: &Mat<f64>, shift: f64, count: usize) -> (Vec<f64>, Mat<f64>) {
     let size = theta.len();
-    let omega2 = (0..count)
-        .map(|i| 1.0 / theta[size - 1 - i] - shift)
-        .collect();
+    let omega2 = theta.iter().rev().map(|t| 1.0 / t - shift).collect();
     let low = Mat::from_fn(size, count, |r, c| shapes[(r, size - 1 - c)]);
     (omega2, low)
 }

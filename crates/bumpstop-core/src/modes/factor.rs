@@ -174,6 +174,22 @@ impl Factor {
         Ok(())
     }
 
+    /// As [`Factor::solve`], where there is a solution.
+    ///
+    /// # Errors
+    /// [`Error::Singular`], [`Error::Sizes`], [`Error::Memory`].
+    pub fn solved(&self, rhs: MatMut<f64>) -> Result<()> {
+        if let Some(singular) = self.singularity() {
+            return Err(singular);
+        }
+        if rhs.nrows() != self.size() {
+            return Err(Error::Sizes {
+                what: "the matrix and the right-hand sides",
+            });
+        }
+        self.solve(rhs)
+    }
+
     fn read_pivots(&mut self, sizes: &[f64]) -> Result<()> {
         let analysis = Arc::clone(&self.analysis);
         let supernodes = analysis.supernodes();
