@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from bumpstop.response import Response
     from bumpstop.simulate import simulate
     from bumpstop.structure.beam import Beam
+    from bumpstop.structure.bearing import Bearing
     from bumpstop.structure.gauge import Gauge
     from bumpstop.structure.link import RigidLink
     from bumpstop.structure.mass import PointMass
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.sections.rectangle import Rectangle
     from bumpstop.structure.sections.section import Section
     from bumpstop.structure.sections.tube import Tube
+    from bumpstop.structure.spring import Spring
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
 
@@ -50,6 +52,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Assembly",
     "Beam",
+    "Bearing",
     "BumpstopError",
     "Case",
     "Circle",
@@ -77,6 +80,7 @@ __all__ = [
     "RigidRotation",
     "Rotation",
     "Section",
+    "Spring",
     "Stop",
     "Structure",
     "Support",
@@ -90,6 +94,7 @@ __all__ = [
 _HOME = {
     "Assembly": "modal.substructure.assembly",
     "Beam": "structure.beam",
+    "Bearing": "structure.bearing",
     "BumpstopError": "errors",
     "Case": "io.case",
     "Circle": "structure.sections.circle",
@@ -117,6 +122,7 @@ _HOME = {
     "RigidRotation": "loads.initial",
     "Rotation": "modal.substructure.rotation",
     "Section": "structure.sections.section",
+    "Spring": "structure.spring",
     "Stop": "laws.stop",
     "Structure": "structure.structure",
     "Support": "structure.support",

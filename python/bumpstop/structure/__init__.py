@@ -1,23 +1,27 @@
 """What vibrates: nodes, beams, masses and supports, and the matrices they make."""
 
 from bumpstop.structure.beam import Beam
+from bumpstop.structure.bearing import Bearing
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.link import RigidLink
 from bumpstop.structure.mass import PointMass
 from bumpstop.structure.material import Material
 from bumpstop.structure.relation import Relation
 from bumpstop.structure.sections.rectangle import Rectangle
+from bumpstop.structure.spring import Spring
 from bumpstop.structure.structure import Structure
 from bumpstop.structure.support import Support
 
 __all__ = [
     "Beam",
+    "Bearing",
     "Gauge",
     "Material",
     "PointMass",
     "Rectangle",
     "Relation",
     "RigidLink",
+    "Spring",
     "Structure",
     "Support",
 ]

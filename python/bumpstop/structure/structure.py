@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray, Vector, did_you_mean, one_of
 from bumpstop.errors import InputError, blamed
 from bumpstop.structure.assembly import Assembly, Part
 from bumpstop.structure.beam import Beam
 from bumpstop.structure.beam_blocks import beam_blocks
+from bumpstop.structure.bearing import Bearing
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.elimination import Freedom, freedom
 from bumpstop.structure.forms import LinearForm
@@ -25,6 +27,7 @@ from bumpstop.structure.points import beam_point
 from bumpstop.structure.relation import Relation
 from bumpstop.structure.rigid import rigid_fields
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
+from bumpstop.structure.spring import Spring
 from bumpstop.structure.support import Support
 
 __all__ = ["Structure"]
@@ -43,8 +46,9 @@ class Structure:
     ----------
     nodes
         Coordinates (x, y, z) of each named node, in m.
-    beams, masses
-        What stands between and on the nodes.
+    beams, masses, springs, bearings
+        What stands between and on the nodes. Rotations of a node that nothing resists and
+        that carry no inertia, as where bars meet, are no dofs of the structure.
     supports
         Which dofs are held at zero.
     relations
@@ -75,6 +79,8 @@ class Structure:
     nodes: Mapping[str, Sequence[float]]
     beams: Sequence[Beam] = ()
     masses: Sequence[PointMass] = ()
+    springs: Sequence[Spring] = ()
+    bearings: Sequence[Bearing] = ()
     supports: Sequence[Support] = ()
     relations: Sequence[Relation] = ()
     links: Sequence[RigidLink] = ()
@@ -83,14 +89,15 @@ class Structure:
         for kind, wanted in (
             ("beams", Beam),
             ("masses", PointMass),
+            ("springs", Spring),
+            ("bearings", Bearing),
             ("supports", Support),
             ("relations", Relation),
             ("links", RigidLink),
         ):
             object.__setattr__(self, kind, _all_of(kind, wanted, getattr(self, kind)))
-        _refuse_twins("beams", [beam.name for beam in self.beams])
-        _refuse_twins("masses", [mass.name for mass in self.masses])
-        _refuse_twins("links", [link.name for link in self.links])
+        for kind in ("beams", "masses", "springs", "bearings", "links"):
+            _refuse_twins(kind, [part.name for part in getattr(self, kind)])
         _refuse_twins("nodes", self.mesh.names)
         self._refuse_loose_nodes()
         self._refuse_massless_dofs()
@@ -226,8 +233,29 @@ class Structure:
         held = np.zeros(len(self.dofs), dtype=bool)
         for number, support in enumerate(self.supports):
             held[support.held(self.mesh, f"supports[{number}]")] = True
+        held[self._idle_rotations] = True
         scale = np.where(np.arange(len(held)) % 6 < 3, 1.0, 1.0 / self.mesh.size)
         return freedom(held, self._zeros, scale)
+
+    @cached_property
+    def _idle_rotations(self) -> IndexArray:
+        """Numbers of rotations that nothing resists or carries: bars turn no node."""
+        idle = np.repeat(self._attached, 6) & (np.arange(6 * len(self._attached)) % 6 >= 3)
+        for matrix in (self.stiffness, self.mass, self.damping):
+            idle &= matrix.diagonal() == 0.0
+        for zero in self._zeros:
+            idle[zero.dofs] = False
+        return np.flatnonzero(idle)
+
+    @cached_property
+    def _attached(self) -> NDArray[np.bool_]:
+        """Which nodes a part, a relation or a link is attached to."""
+        attached = np.zeros(len(self.mesh.names), dtype=bool)
+        for part in self._assembly.parts:
+            attached[part.nodes] = True
+        for zero in self._zeros:
+            attached[zero.dofs // 6] = True
+        return attached
 
     @cached_property
     def _zeros(self) -> list[LinearForm]:
@@ -243,7 +271,7 @@ class Structure:
 
     @cached_property
     def _assembly(self) -> Assembly:
-        parts: list[Part] = [*self.masses]
+        parts: list[Part] = [*self.masses, *self.springs, *self.bearings]
         blocks = [part.block(self.mesh) for part in parts]
         return Assembly([*beam_blocks(self.beams, self.mesh), *blocks], len(self.mesh.names))
 
@@ -265,13 +293,8 @@ class Structure:
 
     def _refuse_loose_nodes(self) -> None:
         """Raise where a node can move that no part is attached to."""
-        attached = np.zeros(len(self.mesh.names), dtype=bool)
-        for block in self._assembly.parts:
-            attached[block.nodes] = True
-        for zero in self._zeros:
-            attached[zero.dofs // 6] = True
         moving = self.free // 6
-        loose = moving[~attached[moving]]
+        loose = moving[~self._attached[moving]]
         if len(loose):
             node = self.mesh.names[loose[0]]
             hint = "put a beam or a mass on it, or fix all its dofs"
