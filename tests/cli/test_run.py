@@ -308,6 +308,7 @@ def test_ctrl_c(call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
         (["run", str(SDNL32), "--method"], "argument --method: expected one argument; see 'bump"),
         (["run", str(SDNL32), "--method", "rk4"], "--method: unknown method (got 'rk4'); known:"),
         (["run", str(SDNL32), "--method", "exakt"], "did you mean 'exact'?"),
+        (["run", str(SDNL32), "--out", ""], "argument --out: is empty; see 'bumpstop run --help'"),
         (["rnu", str(SDNL32)], "there is no command 'rnu'; did you mean 'run'?"),
         (["--versoin"], "there is no option '--versoin'; did you mean '--version'?"),
         (["run", str(SDNL32), "more"], "one argument too many, 'more'; see 'bumpstop run --help'"),

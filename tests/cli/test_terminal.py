@@ -15,10 +15,10 @@ SDNL32 = Path(__file__).parents[2] / "cases" / "sdnl32" / "case.toml"
 GREEN = "\x1b[32m"
 
 
-def on_terminal(*arguments: str) -> str:
-    """Return what a command shows on a terminal of its own, 80 columns wide."""
+def on_terminal(*arguments: str, columns: int = 80) -> str:
+    """Return what a command shows on a terminal of its own."""
     ours, theirs = pty.openpty()
-    environment = {**os.environ, "TERM": "xterm-256color", "COLUMNS": "80"}
+    environment = {**os.environ, "TERM": "xterm-256color", "COLUMNS": str(columns)}
     environment.pop("NO_COLOR", None)
     command = [sys.executable, "-m", "bumpstop", *arguments]
     process = subprocess.Popen(command, stdout=theirs, stderr=theirs, env=environment)
@@ -43,6 +43,17 @@ def test_summary_in_colour() -> None:
     plain = re.sub(r"\x1b\[[0-9;]*m", "", shown)
     assert "time [s]" in plain
     assert re.search(r"  method exact, .* solved in [0-9.]+ .?s\r\n", plain)
+
+
+@pytest.mark.parametrize("columns", [0, 1, 30])
+def test_a_narrow_terminal_hides_no_number(columns: int) -> None:
+    narrow, wide = (
+        re.sub(r"\x1b\[[0-9;]*m", "", on_terminal("modes", str(SDNL32), columns=width))
+        for width in (columns, 80)
+    )
+    assert "SDNL32: a hinged beam thrown against an elastic stop" in narrow
+    assert narrow.split() == wide.split()
+    assert "85.4068" in wide
 
 
 def test_help_in_colour() -> None:

@@ -6,7 +6,7 @@ never taken for a mistake in the arguments. A command's module is imported by it
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, BooleanOptionalAction, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, BooleanOptionalAction, Namespace
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -157,7 +157,7 @@ def _verify(parser: ArgumentParser) -> Callable[[Namespace], int]:
     parser.add_argument("names", nargs="*", metavar="NAME", help="Cases; all if left out.")
     parser.add_argument(
         "--cases",
-        type=Path,
+        type=_path,
         metavar="DIR",
         default=Path("cases"),
         help="The folder that holds the cases; 'cases' if left out.",
@@ -208,8 +208,14 @@ COMMANDS: dict[str, Callable[[ArgumentParser], Callable[[Namespace], int]]] = {
 """What each command takes, and what it does with that."""
 
 
+def _path(text: str) -> Path:
+    if not text:  # a variable of the shell that nobody has set
+        raise ArgumentTypeError("is empty")
+    return Path(text)
+
+
 def _takes_case(parser: ArgumentParser) -> None:
-    parser.add_argument("case", type=Path, metavar="CASE.toml", help="The case file.")
+    parser.add_argument("case", type=_path, metavar="CASE.toml", help="The case file.")
 
 
 def _takes_method(parser: ArgumentParser) -> None:
@@ -218,7 +224,7 @@ def _takes_method(parser: ArgumentParser) -> None:
 
 
 def _takes_folder(parser: ArgumentParser, default: Path | None, told: str) -> None:
-    parser.add_argument("--out", type=Path, metavar="DIR", default=default, help=told)
+    parser.add_argument("--out", type=_path, metavar="DIR", default=default, help=told)
 
 
 def _takes_json(parser: ArgumentParser) -> None:

@@ -13,6 +13,10 @@ if TYPE_CHECKING:
 __all__ = ["Table", "print_json", "print_line", "print_table"]
 
 
+WIDEST = 10_000
+"""Columns of text that no table exceeds."""
+
+
 class Table(NamedTuple):
     """Rows of texts.
 
@@ -62,6 +66,7 @@ def _print_plain(table: Table) -> None:
 
 def _print_rich(table: Table) -> None:
     from rich import box
+    from rich.measure import Measurement
     from rich.padding import Padding
     from rich.table import Table as RichTable
     from rich.text import Text
@@ -73,13 +78,20 @@ def _print_rich(table: Table) -> None:
     for number, row in enumerate(table.rows):
         style = "" if table.good is None else "green" if table.good[number] else "bold red"
         drawn.add_row(*map(Text, row[:-1]), Text(row[-1], style=style))
-    _rich_console().print(Padding(drawn, (0, 0, 0, 2)))
+    indented = Padding(drawn, (0, 0, 0, 2))
+    console = _rich_console()
+    # Where the terminal is too narrow it breaks the lines; rich would leave out numbers.
+    unlimited = console.options.update(max_width=WIDEST)
+    console.width = max(console.width, Measurement.get(console, unlimited, indented).maximum)
+    console.print(indented, crop=False)
 
 
 def _rich_console() -> Console:
     from rich.console import Console
 
-    return Console()
+    console = Console()
+    console.width = max(console.width, 1)  # some terminals say 0, and rich then shows nothing
+    return console
 
 
 def _finite(value: Any) -> Any:

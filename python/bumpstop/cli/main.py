@@ -8,6 +8,8 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
 
 from bumpstop.cli.app import Job, job
 from bumpstop.errors import BumpstopError
@@ -23,6 +25,7 @@ def run_command_line(arguments: Sequence[str] | None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     debug = "--debug" in given
     words = [word for word in given if word != "--debug"] or ["--help"]
+    _open_what_is_closed()
     _replace_what_cannot_be_encoded()
     try:
         return _done(job(words))
@@ -67,7 +70,16 @@ def _failed(error: Exception) -> int:
 
 def _say(line: str) -> None:
     one_line = "".join(char if char.isprintable() else " " for char in line)
-    print(one_line, file=sys.stderr)
+    with suppress(OSError):  # nobody can be told that nothing can be told
+        print(one_line, file=sys.stderr)
+
+
+def _open_what_is_closed() -> None:
+    """Send to nowhere what would be printed to a stream that the shell has closed."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            # For as long as the process lives.
+            setattr(sys, name, Path(os.devnull).open("w"))  # noqa: SIM115
 
 
 def _replace_what_cannot_be_encoded() -> None:

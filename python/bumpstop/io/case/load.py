@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
@@ -61,7 +62,7 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
     variants = _variants(document, base)
     problems = _problems(variants, base)
     method = _method(base)
-    name = file.absolute().parent.name
+    name = _readable(file.absolute().parent.name)
     return Case(
         name=name,
         title=base.title or name,
@@ -73,6 +74,11 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
         method=method.name,
         method_options=method.options,
     )
+
+
+def _readable(name: str) -> str:
+    """Return a file's name as text that can be written: what is not UTF-8 in it is replaced."""
+    return os.fsencode(name).decode(errors="replace")
 
 
 def _method(case: CaseFile) -> Method:
