@@ -62,7 +62,7 @@ def test_what_is_mutated_is_good(tmp_path: Path, capsys: pytest.CaptureFixture[s
     [
         (b"", "is empty"),
         (b" \n\n", "is empty"),
-        (b"# nothing but a comment\n", "nodes: is missing"),
+        (b"# nothing but a comment\n", "basis: is missing"),
         (bytes(range(256)) * 4, "is a binary file"),
         (b"title = 'caf\xe9'\n", "line 1: is not UTF-8 text"),
         (b"title = 'a'\ntitle = 'b'\n", "line 2"),

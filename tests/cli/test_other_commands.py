@@ -126,7 +126,7 @@ def test_schema(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["schema"]) == 0
     schema = json.loads(capsys.readouterr().out)
     assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
-    assert schema["required"] == ["nodes", "basis", "run"]
+    assert schema["required"] == ["basis", "run"]
     stop = schema["$defs"]["StopTable"]
     assert stop["required"] == ["node", "normal", "stiffness"]
     assert stop["properties"]["stiffness"]["description"] == "Contact stiffness, in N/m"

@@ -58,6 +58,8 @@ def keyed(table: str = "", renamed: Mapping[str, str] | None = None) -> Iterator
     try:
         yield
     except InputError as error:
+        if error.file:  # of another file, whose keys are not ours
+            raise
         first, point, rest = (error.key or "").partition(".")
         inner = f"{(renamed or {}).get(first, first)}{point}{rest}"
         key = re.sub(_INDEX, r".\1", ".".join(part for part in (table, inner) if part))

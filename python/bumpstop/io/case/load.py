@@ -59,8 +59,8 @@ def load_case(path: str | PathLike[str]) -> Case:
 
 def _case(file: Path, document: dict[str, Any]) -> Case:
     base = _checked(document)
-    variants = _variants(document, base)
-    problems = _problems(variants, base)
+    variants = _variants(document, base, file.parent)
+    problems = _problems(variants, base, file.parent)
     method = _method(base)
     name = _readable(file.absolute().parent.name)
     return Case(
@@ -95,35 +95,35 @@ def _checked(document: dict[str, Any]) -> CaseFile:
         raise first_mistake(error, CaseFile) from error
 
 
-def _variants(document: dict[str, Any], base: CaseFile) -> dict[str, CaseFile]:
+def _variants(document: dict[str, Any], base: CaseFile, folder: Path) -> dict[str, CaseFile]:
     """Return the tables of each variant; the case alone where there is none."""
     variants = {}
     for name, changes in base.variants.items():
-        with _in_variant(name, base):
+        with _in_variant(name, base, folder):
             variants[name] = _checked(overridden(document, changes))
     return variants or {BASE: base}
 
 
-def _problems(variants: dict[str, CaseFile], base: CaseFile) -> dict[str, Problem]:
-    builder = Builder()
+def _problems(variants: dict[str, CaseFile], base: CaseFile, folder: Path) -> dict[str, Problem]:
+    builder = Builder(folder)
     problems = {}
     for name, tables in variants.items():
-        with _in_variant(name, base):
+        with _in_variant(name, base, folder):
             problems[name] = builder.problem(tables)
     return problems
 
 
 @contextmanager
-def _in_variant(name: str, base: CaseFile) -> Iterator[None]:
+def _in_variant(name: str, base: CaseFile, folder: Path) -> Iterator[None]:
     """Say in which variant a key is wrong, unless the case without it is wrong as well."""
     try:
         yield
     except InputError as error:
-        if name not in base.variants:
+        if name not in base.variants or error.file:
             raise
         key = error.key or ""
         if not _changed(key, base.variants[name]):
-            Builder().problem(base)
+            Builder(folder).problem(base)
         quoted = key if key.startswith('"') else f'"{key}"'
         raise InputError(
             error.what, key=f"variants.{name}.{quoted}", value=error.value, hint=error.hint

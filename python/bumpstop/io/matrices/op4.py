@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from bumpstop.errors import InputError
 from bumpstop.io.matrices.op4_binary import binary_order, read_binary
 from bumpstop.io.matrices.op4_text import read_text
 from bumpstop.io.reading import in_file, read_content, read_lines
@@ -26,4 +27,6 @@ def read_op4(path: Path) -> dict[str, SparseMatrix]:
         content = read_content(path, _KIND)
         order = binary_order(content)
         matrices = read_binary(content, order) if order else read_text(read_lines(path, _KIND))
+        if not matrices:
+            raise InputError("holds no matrix")
         return {matrix.name: matrix.assembled() for matrix in matrices}

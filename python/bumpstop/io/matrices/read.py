@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from bumpstop.structure.dofs import Dof
 from bumpstop.structure.matrices import ACCURACY, Matrices
 from bumpstop.structure.sparse import SparseMatrix
 
-__all__ = ["read_matrices", "read_matrix"]
+__all__ = ["MatrixSet", "read_matrices", "read_matrix", "read_matrix_set"]
 
 AnyPath = str | PathLike[str]
 
@@ -69,22 +70,66 @@ def read_matrices(
         "gyroscopic": gyroscopic,
         "circulatory": circulatory,
     }
-    files = {key: str(path) for key, path in given.items() if path is not None}
-    read = {key: read_matrix(path) for key, path in files.items()}
-    dof_map = read_dof_map(Path(dofs)) if dofs is not None else _named_dofs(files, read)
-    dofs_file = str(dofs) if dofs is not None else files["stiffness"]
-    try:
-        return Matrices(
-            **{key: _ordered(files[key], matrix, dof_map) for key, matrix in read.items()},
-            dofs=dof_map.dofs,
-            positions=dof_map.positions or None,
-            fixed=tuple(dict.fromkeys([*dof_map.fixed, *fixed])),
-            accuracy=accuracy,
-        )
-    except InputError as error:
-        first = (error.key or "").partition("[")[0].partition(".")[0]
-        sources = {**files, "dofs": dofs_file, "positions": dofs_file}
-        raise error.located(file=sources.get(first)) from error
+    files = {key: path for key, path in given.items() if path is not None}
+    return read_matrix_set(files, dofs).model(fixed=fixed, accuracy=accuracy)
+
+
+@dataclass(frozen=True, eq=False)
+class MatrixSet:
+    """Matrices from files, on the same dofs, before anything is held.
+
+    Parameters
+    ----------
+    matrices
+        By argument of ``Matrices``.
+    dof_map
+        What their rows are.
+    files
+        Where each came from, the dof map too.
+    """
+
+    matrices: Mapping[str, SparseMatrix]
+    dof_map: DofMap
+    files: Mapping[str, str]
+
+    def model(self, *, fixed: Sequence[Dof] = (), accuracy: float = ACCURACY) -> Matrices:
+        """Return the model, with some dofs held beside those that the dof map tells.
+
+        Raises
+        ------
+        InputError
+            If the matrices do not make a model; the message names the file.
+        """
+        try:
+            return Matrices(
+                **self.matrices,
+                dofs=self.dof_map.dofs,
+                positions=self.dof_map.positions or None,
+                fixed=tuple(dict.fromkeys([*self.dof_map.fixed, *fixed])),
+                accuracy=accuracy,
+            )
+        except InputError as error:
+            first = (error.key or "").partition("[")[0].partition(".")[0]
+            source = {**self.files, "positions": self.files["dofs"]}.get(first)
+            raise error.located(file=source) from error
+
+
+def read_matrix_set(files: Mapping[str, AnyPath], dofs: AnyPath | None) -> MatrixSet:
+    """Read matrices, by argument of ``Matrices``, and the dof map where there is one.
+
+    Raises
+    ------
+    InputError
+        If a file is missing, truncated or in another format, or sizes do not fit together.
+    """
+    names = {key: str(path) for key, path in files.items()}
+    read = {key: read_matrix(path) for key, path in names.items()}
+    dof_map = read_dof_map(Path(dofs)) if dofs is not None else _named_dofs(names, read)
+    return MatrixSet(
+        matrices={key: _ordered(names[key], matrix, dof_map) for key, matrix in read.items()},
+        dof_map=dof_map,
+        files={**names, "dofs": str(dofs) if dofs is not None else names["stiffness"]},
+    )
 
 
 def read_matrix(path: AnyPath) -> FileMatrix:

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray
+from bumpstop.arguments import FloatArray, not_negative, one_of, positive, refuse_twins
 from bumpstop.errors import InputError
 from bumpstop.modal.basis import ModalBasis
-from bumpstop.structure.dofs import Dof
+from bumpstop.modal.damping import Damping
+from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.sparse import IndexArray
 
 __all__ = ["ModeSet"]
@@ -33,6 +34,12 @@ class ModeSet:
         Node and dof of each row of ``shapes``.
     shapes
         Components of the modes, (rows, N), in m/m and rad/m.
+
+    Raises
+    ------
+    InputError
+        If a frequency or damping is negative, a modal mass not positive, or a dof unknown or
+        there twice.
     """
 
     frequency: FloatArray
@@ -41,11 +48,22 @@ class ModeSet:
     dofs: tuple[Dof, ...]
     shapes: FloatArray
 
+    def __post_init__(self) -> None:
+        refuse_twins("dofs", [".".join(dof) for dof in self.dofs])
+        for _, dof in self.dofs:
+            one_of("dof", dof, DOFS)
+        for key, values in (("frequency", self.frequency), ("damping", self.damping)):
+            for value in values:
+                not_negative(key, float(value))
+        if self.modal_mass is not None:
+            for value in self.modal_mass:
+                positive("modal_mass", float(value))
+
     def basis(
         self,
         *,
         modes: int | None = None,
-        damping: float | Sequence[float] | None = None,
+        damping: Damping | None = None,
         modal_mass: float | Sequence[float] | None = None,
     ) -> ModalBasis:
         """Return a modal basis.
@@ -55,8 +73,8 @@ class ModeSet:
         modes
             How many modes to take, the lowest ones; all where left out.
         damping
-            Ratio of critical damping, one for all modes or one for each that is taken;
-            what the file says where left out.
+            Ratio of critical damping, one for all modes or one for each that is taken, or a
+            rule such as ``RayleighDamping``; what the file says where left out.
         modal_mass
             Modal mass in kg, one for all modes or one for each that is taken; what the
             file says where left out.

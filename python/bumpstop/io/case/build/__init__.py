@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bumpstop.io.case.build.basis import built_basis, static_places
@@ -9,6 +10,7 @@ from bumpstop.io.case.build.gauges import built_gauges
 from bumpstop.io.case.build.initial import built_initial
 from bumpstop.io.case.build.laws import built_laws
 from bumpstop.io.case.build.loads import built_loads
+from bumpstop.io.case.build.source import require_one_source
 from bumpstop.io.case.keys import keyed
 from bumpstop.problem import Problem
 
@@ -20,6 +22,8 @@ __all__ = ["Builder"]
 
 _STRUCTURE = (
     "nodes",
+    "matrices",
+    "modes",
     "materials",
     "sections",
     "beams",
@@ -33,9 +37,16 @@ _STRUCTURE = (
 
 
 class Builder:
-    """Builds the problems of one case; variants of the same structure share its modes."""
+    """Builds the problems of one case; variants of the same structure share its modes.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    folder
+        Where the case file is: paths in it are relative to that.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
         self._bases: list[tuple[CaseFile, ModalBasis]] = []
 
     def problem(self, case: CaseFile) -> Problem:
@@ -65,7 +76,8 @@ class Builder:
         for known, basis in self._bases:
             if _same_basis(known, case):
                 return basis
-        basis = built_basis(case)
+        require_one_source(case, _STRUCTURE)
+        basis = built_basis(case, self._folder)
         self._bases.append((case, basis))
         return basis
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bumpstop.io.case.build.structure import built_structure
@@ -11,14 +12,18 @@ from bumpstop.modal.basis import ModalBasis
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
     from bumpstop.modal.places import Place
+    from bumpstop.structure.model import LinearModel
 
 __all__ = ["built_basis", "static_places"]
 
 
-def built_basis(case: CaseFile) -> ModalBasis:
-    """Return the modal basis of the case's structure."""
-    with keyed():
-        structure = built_structure(case)
+def built_basis(case: CaseFile, folder: Path) -> ModalBasis:
+    """Return the modal basis of the case's structure, or of the files that it names."""
+    if case.modes is not None:
+        from bumpstop.io.case.build.modes import built_modes
+
+        return built_modes(case, case.modes, folder)
+    structure = _model(case, folder)
     table = case.basis
     with keyed("basis"):
         return ModalBasis.from_structure(
@@ -31,6 +36,15 @@ def built_basis(case: CaseFile) -> ModalBasis:
             base_shapes=table.base_shapes,
             static_damping=table.static_damping,
         )
+
+
+def _model(case: CaseFile, folder: Path) -> LinearModel:
+    if case.matrices is not None:
+        from bumpstop.io.case.build.matrices import built_matrices
+
+        return built_matrices(case, case.matrices, folder)
+    with keyed():
+        return built_structure(case)
 
 
 def static_places(case: CaseFile) -> list[Place]:

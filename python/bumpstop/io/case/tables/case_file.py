@@ -14,6 +14,8 @@ from bumpstop.io.case.tables.links import LinkTable
 from bumpstop.io.case.tables.loads import LoadTable
 from bumpstop.io.case.tables.masses import MassTable
 from bumpstop.io.case.tables.materials import MaterialTable
+from bumpstop.io.case.tables.matrices import MatricesTable
+from bumpstop.io.case.tables.modes import ModesTable
 from bumpstop.io.case.tables.outputs import OutputTable
 from bumpstop.io.case.tables.references import ReferenceTable
 from bumpstop.io.case.tables.relations import RelationTable
@@ -34,7 +36,11 @@ class CaseFile(Table):
 
     title: Text = Field(default="", description="What the case is, in one line")
     description: Text = Field(default="", description="More about it, in any number of lines")
-    nodes: dict[NodeName, Length3] = Field(description="Named points: x, y and z, in m")
+    nodes: dict[NodeName, Length3] = Field(default={}, description="Named points: x, y and z, in m")
+    matrices: MatricesTable | None = Field(
+        default=None, description="Instead of nodes: matrices from files"
+    )
+    modes: ModesTable | None = Field(default=None, description="Instead of nodes: modes of a file")
     materials: dict[Name, MaterialTable] = Field(default={}, description="Materials, by name")
     sections: dict[Name, SectionTable] = Field(default={}, description="Cross sections, by name")
     beams: dict[Name, BeamTable] = Field(default={}, description="Beams, by name")

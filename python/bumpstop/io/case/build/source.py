@@ -1,0 +1,47 @@
+"""What the modes of a case come from: one source, and only what goes with it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from bumpstop.errors import InputError
+
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.case_file import CaseFile
+
+__all__ = ["require_one_source"]
+
+_BESIDE = {
+    "matrices": ("supports", "basis"),
+    "modes": ("basis",),
+}
+"""Which tables go with a source; all of a structure's with ``nodes``."""
+
+
+def require_one_source(case: CaseFile, tables: Sequence[str]) -> None:
+    """Raise unless the case has one source of modes, and no table that it has no use for.
+
+    Parameters
+    ----------
+    case
+        The case.
+    tables
+        All tables that modes can be made of.
+
+    Raises
+    ------
+    InputError
+        If there is no source, or more than one, or a table beside it that does not go with it.
+    """
+    sources = [source for source in ("nodes", *_BESIDE) if getattr(case, source)]
+    if not sources:
+        hint = "name points there, or take [matrices] or [modes] from files"
+        raise InputError("is missing", key="nodes", hint=hint)
+    if len(sources) > 1:
+        names = " and ".join(f"[{source}]" for source in sources)
+        raise InputError(f"{names} exclude each other", key=sources[1], hint="keep one of them")
+    source = sources[0]
+    for table in tables:
+        if source in _BESIDE and table not in (source, *_BESIDE[source]) and getattr(case, table):
+            raise InputError(f"does not go with [{source}]", key=table, hint="leave it out")
