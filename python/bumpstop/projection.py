@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector
+from bumpstop.errors import InputError
 from bumpstop.structure.dofs import DOFS
+from bumpstop.structure.forms import LinearForm
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
@@ -26,11 +28,22 @@ def direction_row(
     It is both the motion along ``direction`` per unit of modal displacement and the modal
     force of ``direction`` taken as a force in N. Components that are zero ask nothing of the
     basis, so that a basis with shapes along x alone does for a stop along x.
+
+    Raises
+    ------
+    InputError
+        If the basis has no shape there, or the structure has no mass for a force to move.
     """
     row = np.zeros(len(basis.omega2))
+    forms = []
     for component, dof in zip(direction, dofs, strict=True):
         if component != 0.0:
             row += component * basis.row(node, dof)
+            if basis.structure is not None:
+                forms.append((component, basis.structure.displacement_form(node, dof)))
+    if basis.structure is not None and not basis.structure.has_inertia(LinearForm.sum(forms)):
+        hint = "give the node mass" if dofs == TRANSLATIONS else "give the node rotary inertia"
+        raise InputError("a force here has no mass to move", key="node", value=node, hint=hint)
     return row
 
 

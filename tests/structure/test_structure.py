@@ -13,7 +13,6 @@ from bumpstop import (
     Material,
     PointMass,
     Rectangle,
-    Spring,
     Structure,
     Support,
 )
@@ -145,14 +144,6 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
         "support of an unknown node",
         {"supports": [Support(nodes=("A", "B.1"), fixed=("dx",))]},
         r"supports\[0\].nodes: unknown node \(got 'B.1'\); did you mean 'AB.1'",
-    ),
-    (
-        "a spring without a mass",
-        {
-            "nodes": {**NODES, "P": (0, 0, 1)},
-            "springs": [Spring("s", node="P", stiffness=(1e3, 1e3, 1e3, 0, 0, 5.0))],
-        },
-        "nodes.P: dx, dy, dz, drz can move but have no mass",
     ),
 ]
 

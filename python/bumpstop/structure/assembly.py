@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray
+from bumpstop.structure.inertia import definite_dofs
 from bumpstop.structure.mesh import Mesh
 from bumpstop.structure.pattern import Pattern
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
@@ -32,6 +34,9 @@ class Contribution(Protocol):
 
         None where every element resists all but the motions of a rigid body.
         """
+
+    def massive(self) -> NDArray[np.bool_]:
+        """Return which dofs of an element have inertia in whatever way they move, (6 m,)."""
 
     def has(self, kind: str) -> bool:
         """Tell whether they have one of the ``KINDS`` that is not zero."""
@@ -70,6 +75,10 @@ class Block:
         """Return sums of dofs that the stiffness resists, (1, sums, 6 m)."""
         sums = strains_of(self.matrix("stiffness")[0], mesh.positions[self.joined])
         return None if sums is None else sums[np.newaxis]
+
+    def massive(self) -> NDArray[np.bool_]:
+        """Return which dofs have inertia in whatever way they move, (6 m,)."""
+        return definite_dofs(self.matrix("mass")[0])
 
     def has(self, kind: str) -> bool:
         """Tell whether the matrix of that name is given."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import InputError
@@ -96,6 +97,16 @@ class PrismaticBeams:
         in_global = sums.reshape(-1, 4, 3) @ self._axes[:, np.newaxis]
         of_beams: FloatArray = in_global.reshape(len(self.beams), -1, 12)
         return of_beams[self._beam]
+
+    def massive(self) -> NDArray[np.bool_]:
+        """Return which dofs of every element have inertia in whatever way they move, (12,).
+
+        Those of a node's three displacements, or three rotations, that all have mass along
+        the beam's own axes; then they have it along any.
+        """
+        with np.errstate(all="ignore"):
+            heavy = self._local("mass").diagonal(axis1=1, axis2=2).all(axis=0)
+        return heavy.reshape(4, 3).all(axis=1).repeat(3)
 
     def has(self, kind: str) -> bool:
         """Tell whether the beams have such a matrix."""

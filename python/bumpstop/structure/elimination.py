@@ -47,6 +47,12 @@ class Freedom:
     free: IndexArray
     expansion: SparseMatrix
 
+    def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
+        """Return a matrix of all dofs as one of the free dofs, expansion' @ matrix @ expansion."""
+        if len(self.expansion.values) == len(self.free):  # every dof for itself
+            return matrix.restricted(self.free)
+        return matrix.congruent(self.expansion)
+
 
 def freedom(held: NDArray[np.bool_], zeros: Sequence[LinearForm], scale: FloatArray) -> Freedom:
     """Return what supports and relations let move.

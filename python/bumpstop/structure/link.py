@@ -73,14 +73,6 @@ class RigidLink:
             motions = rigid_motions(np.array([position(follower)]), place)
             for dof in self.dofs:
                 weights = motions[DOFS.index(dof)]
-                own = displacement_form(follower, dof)
-                parts = [(form, w) for form, w in zip(leading, weights, strict=True) if w != 0.0]
-                forms.append(
-                    LinearForm(
-                        dofs=np.concatenate([own.dofs, *(form.dofs for form, _ in parts)]),
-                        weights=np.concatenate(
-                            [own.weights, *(-w * form.weights for form, w in parts)]
-                        ),
-                    )
-                )
+                parts = [(-w, form) for w, form in zip(weights, leading, strict=True) if w != 0.0]
+                forms.append(LinearForm.sum([(1.0, displacement_form(follower, dof)), *parts]))
         return forms

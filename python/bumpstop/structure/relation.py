@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from bumpstop.arguments import finite, one_of
 from bumpstop.errors import InputError
 from bumpstop.structure.dofs import DOFS, Dof
@@ -50,12 +48,8 @@ class Relation:
 
     def form(self, displacement_form: Callable[[str, str], LinearForm]) -> LinearForm:
         """Return the sum that stays zero, by the forms of single dofs."""
-        forms = [
-            (displacement_form(node, dof), weight) for (node, dof), weight in self.terms.items()
-        ]
-        return LinearForm(
-            dofs=np.concatenate([form.dofs for form, _ in forms]),
-            weights=np.concatenate([weight * form.weights for form, weight in forms]),
+        return LinearForm.sum(
+            [(weight, displacement_form(node, dof)) for (node, dof), weight in self.terms.items()]
         )
 
 

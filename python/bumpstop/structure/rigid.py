@@ -11,6 +11,7 @@ nothing: rigid motions of the whole, of pieces of it, and mechanisms.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -101,10 +102,8 @@ def _relative_product(zeros: SparseMatrix, motions: SparseMatrix) -> SparseMatri
     sizes = zeros.magnitudes().times(motions.magnitudes()).values
     row_sizes = np.zeros(zeros.shape[0])
     np.maximum.at(row_sizes, product.rows, sizes)
-    kept = np.abs(product.values) > _CANCELLED * sizes
-    rows, columns = product.rows[kept], product.columns[kept]
-    values = product.values[kept] / row_sizes[rows]
-    return SparseMatrix.from_triplets(product.shape, rows, columns, values)
+    relative = replace(product, values=product.values / row_sizes[product.rows])
+    return relative.where(np.abs(product.values) > _CANCELLED * sizes)
 
 
 def _groups(rows: SparseMatrix) -> list[IndexArray]:
@@ -117,14 +116,7 @@ def _groups(rows: SparseMatrix) -> list[IndexArray]:
 
 def _null_vectors(rows: SparseMatrix, group: IndexArray) -> FloatArray:
     """Return weights of all motions that rows allow those of one group, (motions, vectors)."""
-    place = np.full(rows.shape[1], -1, dtype=np.intp)
-    place[group] = np.arange(len(group))
-    here = place[rows.columns] >= 0
-    used = np.zeros(rows.shape[0], dtype=bool)
-    used[rows.rows[here]] = True
-    row = np.cumsum(used) - 1
-    matrix = np.zeros((np.count_nonzero(used), len(group)))
-    matrix[row[rows.rows[here]], place[rows.columns[here]]] = rows.values[here]
+    _, matrix = rows.dense_columns(group)
     allowed = null_space(matrix)
     weights = np.zeros((rows.shape[1], allowed.shape[1]))
     weights[group] = allowed

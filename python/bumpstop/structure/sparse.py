@@ -19,6 +19,9 @@ __all__ = ["IndexArray", "SparseMatrix"]
 
 IndexArray: TypeAlias = NDArray[np.intp]
 
+_CANCELLED = 1e-14
+"""An entry this small beside the sizes of the terms that it is the sum of is rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class SparseMatrix:
@@ -144,11 +147,14 @@ class SparseMatrix:
         return SparseMatrix(self.shape, self.starts, self.rows, factor * self.values)
 
     def congruent(self, expansion: SparseMatrix) -> SparseMatrix:
-        """Return expansion' @ self @ expansion.
+        """Return expansion' @ self @ expansion, without entries that only rounding left.
 
         A symmetric matrix stays symmetric, and a skew-symmetric one skew-symmetric, to the bit.
         """
-        product = expansion.transposed().times(self.times(expansion))
+        across = expansion.transposed()
+        product = across.times(self.times(expansion))
+        sizes = across.magnitudes().times(self.magnitudes().times(expansion.magnitudes()))
+        product = product.where(np.abs(product.values) > _CANCELLED * sizes.values)
         sign = self.mirror_sign()
         if sign is None:
             return product
@@ -164,6 +170,24 @@ class SparseMatrix:
             if same_places and np.array_equal(across.values, sign * self.values):
                 return sign
         return None
+
+    def where(self, kept: NDArray[np.bool_]) -> SparseMatrix:
+        """Return the matrix with some of its entries only, (entries,)."""
+        count = np.concatenate([[0], np.cumsum(kept)])
+        return SparseMatrix(self.shape, count[self.starts], self.rows[kept], self.values[kept])
+
+    def dense_columns(self, numbers: IndexArray) -> tuple[IndexArray, FloatArray]:
+        """Return a few columns: the rows where they have entries, and the entries there."""
+        place = np.full(self.shape[1], -1, dtype=np.intp)
+        place[numbers] = np.arange(len(numbers))
+        column = place[self.columns]
+        inside = column >= 0
+        used = np.zeros(self.shape[0], dtype=bool)
+        used[self.rows[inside]] = True
+        row = np.cumsum(used) - 1
+        dense = np.zeros((np.count_nonzero(used), len(numbers)))
+        dense[row[self.rows[inside]], column[inside]] = self.values[inside]
+        return np.flatnonzero(used), dense
 
     def to_dense(self) -> FloatArray:
         """Return the matrix as a NumPy array."""

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray, Vector, did_you_mean, one_of
 from bumpstop.errors import InputError, blamed
-from bumpstop.structure.assembly import Assembly, Part
+from bumpstop.structure.assembly import KINDS, Assembly, Part
 from bumpstop.structure.beam import Beam
 from bumpstop.structure.beam_blocks import beam_blocks
 from bumpstop.structure.bearing import Bearing
@@ -22,7 +21,9 @@ from bumpstop.structure.frame import rigid_motions
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.link import RigidLink
 from bumpstop.structure.mass import PointMass
+from bumpstop.structure.massless import surely_massive
 from bumpstop.structure.mesh import Mesh, user_nodes
+from bumpstop.structure.mobility import Mobility, mobility
 from bumpstop.structure.points import beam_point
 from bumpstop.structure.relation import Relation
 from bumpstop.structure.rigid import rigid_fields
@@ -100,7 +101,7 @@ class Structure:
             _refuse_twins(kind, [part.name for part in getattr(self, kind)])
         _refuse_twins("nodes", self.mesh.names)
         self._refuse_loose_nodes()
-        self._refuse_massless_dofs()
+        self._mobility  # noqa: B018  # says what is wrong now, not when modes are asked for
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -152,13 +153,18 @@ class Structure:
 
     def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
         """Return a matrix of all dofs as one of the free dofs, expansion' @ matrix @ expansion."""
-        if self.relations or self.links:
-            return matrix.congruent(self.expansion)
-        return matrix.restricted(self.free)
+        return self._freedom.reduced(matrix)
 
     def rigid_shapes(self) -> FloatArray:
         """Return all motions that strain nothing, by the free dofs, (free dofs, motions)."""
-        return rigid_fields(self.mesh, self._assembly.parts, self._freedom)[self.free]
+        return rigid_fields(self.mesh, self._assembly.parts, self._mobility.allowed)[self.free]
+
+    def has_inertia(self, form: LinearForm) -> bool:
+        """Tell whether a force along a form accelerates masses alone.
+
+        A force on a dof without mass would move it at once, which no mode can follow.
+        """
+        return self._mobility.has_inertia(form)
 
     def displacement_form(self, node: str, dof: str) -> LinearForm:
         """Return one dof of a node, or of a point along a beam, as a form of all dofs.
@@ -228,34 +234,30 @@ class Structure:
         field: FloatArray = motions @ np.array([*translation, *rotation], dtype=float)
         return field
 
-    @cached_property
+    @property
     def _freedom(self) -> Freedom:
+        return self._mobility.freedom
+
+    @cached_property
+    def _mobility(self) -> Mobility:
+        massive = surely_massive(self.mesh, self._assembly.parts)
+        matrices = {kind: getattr(self, kind) for kind in KINDS}
+        return mobility(self.dofs, self._told, self._scale, massive, matrices)
+
+    @cached_property
+    def _told(self) -> Freedom:
+        """What supports, relations and links allow."""
         held = np.zeros(len(self.dofs), dtype=bool)
         for number, support in enumerate(self.supports):
             held[support.held(self.mesh, f"supports[{number}]")] = True
-        held[self._idle_rotations] = True
-        scale = np.where(np.arange(len(held)) % 6 < 3, 1.0, 1.0 / self.mesh.size)
-        return freedom(held, self._zeros, scale)
+        return freedom(held, self._zeros, self._scale)
 
     @cached_property
-    def _idle_rotations(self) -> IndexArray:
-        """Numbers of rotations that nothing resists or carries: bars turn no node."""
-        idle = np.repeat(self._attached, 6) & (np.arange(6 * len(self._attached)) % 6 >= 3)
-        for matrix in (self.stiffness, self.mass, self.damping):
-            idle &= matrix.diagonal() == 0.0
-        for zero in self._zeros:
-            idle[zero.dofs] = False
-        return np.flatnonzero(idle)
-
-    @cached_property
-    def _attached(self) -> NDArray[np.bool_]:
-        """Which nodes a part, a relation or a link is attached to."""
-        attached = np.zeros(len(self.mesh.names), dtype=bool)
-        for part in self._assembly.parts:
-            attached[part.nodes] = True
-        for zero in self._zeros:
-            attached[zero.dofs // 6] = True
-        return attached
+    def _scale(self) -> FloatArray:
+        """Size of a typical motion of each dof: it moves something by about 1 m."""
+        scale = np.ones(len(self.dofs))
+        scale.reshape(-1, 6)[:, 3:] = 1.0 / self.mesh.size
+        return scale
 
     @cached_property
     def _zeros(self) -> list[LinearForm]:
@@ -293,23 +295,17 @@ class Structure:
 
     def _refuse_loose_nodes(self) -> None:
         """Raise where a node can move that no part is attached to."""
-        moving = self.free // 6
-        loose = moving[~self._attached[moving]]
+        attached = np.zeros(len(self.mesh.names), dtype=bool)
+        for block in self._assembly.parts:
+            attached[block.nodes] = True
+        for zero in self._zeros:
+            attached[zero.dofs // 6] = True
+        moving = self._told.free // 6
+        loose = moving[~attached[moving]]
         if len(loose):
             node = self.mesh.names[loose[0]]
             hint = "put a beam or a mass on it, or fix all its dofs"
             raise InputError("the node is attached to nothing", key=f"nodes.{node}", hint=hint)
-
-    def _refuse_massless_dofs(self) -> None:
-        """Raise where a dof can move that has no inertia: its acceleration has no meaning."""
-        massless = self.free[self.reduced(self.mass).diagonal() <= 0.0]
-        if len(massless):
-            node = self.dofs[massless[0]][0]
-            dofs = ", ".join(
-                dof for known, dof in (self.dofs[i] for i in massless) if known == node
-            )
-            what, hint = f"{dofs} can move but have no mass", "fix them with a support"
-            raise InputError(what, key=f"nodes.{node}", hint=hint)
 
 
 def _all_of(key: str, wanted: type, value: object) -> tuple[object, ...]:
