@@ -19,6 +19,11 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.modal.damping import RayleighDamping, StructuralDamping
+    from bumpstop.modal.masses import Participation, generalised_mass, participation
+    from bumpstop.modal.oscillation import ComplexModes, complex_modes
+    from bumpstop.modal.rotor import Campbell, campbell
+    from bumpstop.modal.static_shapes import StaticShapes
     from bumpstop.modal.substructure.assembly import Assembly
     from bumpstop.modal.substructure.component import Component
     from bumpstop.modal.substructure.craig_bampton import craig_bampton
@@ -54,8 +59,10 @@ __all__ = [
     "Beam",
     "Bearing",
     "BumpstopError",
+    "Campbell",
     "Case",
     "Circle",
+    "ComplexModes",
     "Component",
     "ComputationError",
     "Gauge",
@@ -68,10 +75,12 @@ __all__ = [
     "ModalBasis",
     "ModalState",
     "NodalForce",
+    "Participation",
     "Placed",
     "Plane",
     "PointMass",
     "Problem",
+    "RayleighDamping",
     "Rectangle",
     "ReducedComponent",
     "Relation",
@@ -81,13 +90,19 @@ __all__ = [
     "Rotation",
     "Section",
     "Spring",
+    "StaticShapes",
     "Stop",
+    "StructuralDamping",
     "Structure",
     "Support",
     "Tube",
+    "campbell",
+    "complex_modes",
     "craig_bampton",
     "free_interface",
+    "generalised_mass",
     "load_case",
+    "participation",
     "simulate",
 ]
 
@@ -96,8 +111,10 @@ _HOME = {
     "Beam": "structure.beam",
     "Bearing": "structure.bearing",
     "BumpstopError": "errors",
+    "Campbell": "modal.rotor",
     "Case": "io.case",
     "Circle": "structure.sections.circle",
+    "ComplexModes": "modal.oscillation",
     "Component": "modal.substructure.component",
     "ComputationError": "errors",
     "Gauge": "structure.gauge",
@@ -110,10 +127,12 @@ _HOME = {
     "ModalBasis": "modal.basis",
     "ModalState": "loads.initial",
     "NodalForce": "loads.force",
+    "Participation": "modal.masses",
     "Placed": "modal.substructure.placed",
     "Plane": "laws.obstacle",
     "PointMass": "structure.mass",
     "Problem": "problem",
+    "RayleighDamping": "modal.damping",
     "Rectangle": "structure.sections.rectangle",
     "ReducedComponent": "modal.substructure.reduced",
     "Relation": "structure.relation",
@@ -123,13 +142,19 @@ _HOME = {
     "Rotation": "modal.substructure.rotation",
     "Section": "structure.sections.section",
     "Spring": "structure.spring",
+    "StaticShapes": "modal.static_shapes",
     "Stop": "laws.stop",
+    "StructuralDamping": "modal.damping",
     "Structure": "structure.structure",
     "Support": "structure.support",
     "Tube": "structure.sections.tube",
+    "campbell": "modal.rotor",
+    "complex_modes": "modal.oscillation",
     "craig_bampton": "modal.substructure.craig_bampton",
     "free_interface": "modal.substructure.free_interface",
+    "generalised_mass": "modal.masses",
     "load_case": "io.case",
+    "participation": "modal.masses",
     "simulate": "simulate",
 }
 """Where each public name lives."""

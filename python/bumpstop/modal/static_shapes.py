@@ -12,17 +12,17 @@ from functools import cached_property
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, one_of
+from bumpstop.arguments import FloatArray
 from bumpstop.errors import InputError
 from bumpstop.modal.independent import independent_vectors, mass_norms, without
 from bumpstop.modal.places import Place, ResolvedPlace, resolved_places
 from bumpstop.modal.solve import StaticSolver
+from bumpstop.modal.unit_motion import unit_motion
 from bumpstop.modal.vectors import RIGID
-from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.model import LinearModel
 from bumpstop.structure.sparse import SparseMatrix
 
-__all__ = ["StaticShapes", "unit_motion"]
+__all__ = ["StaticShapes"]
 
 BALANCED = 1e-9
 """A load of which less than this is left after inertia has taken its share bends nothing."""
@@ -176,19 +176,6 @@ class StaticShapes:
         rest = without(modes, without(modes, self._rigid, mass), mass)
         missing = rest[:, mass_norms(rest, mass) > RIGID]
         return np.hstack([modes, independent_vectors(missing, mass).vectors])
-
-
-def unit_motion(model: LinearModel, direction: str) -> FloatArray:
-    """Return the motion of the whole model by 1 m along an axis, or 1 rad about it, (dofs,).
-
-    Raises
-    ------
-    InputError
-        If the direction is not one of ``dx dy dz drx dry drz``.
-    """
-    along = np.array(DOFS) == one_of("direction", direction, DOFS)
-    x, y, z, rx, ry, rz = along.astype(float).tolist()
-    return model.rigid_field(translation=(x, y, z), rotation=(rx, ry, rz))
 
 
 def _held(compliance: FloatArray, rigid: FloatArray) -> tuple[FloatArray, FloatArray]:
