@@ -29,13 +29,16 @@ def modes_command(path: Path, *, json: bool) -> int:
         print_line()
         print_line(", ".join(name for name in bases if bases[name] is basis), style="bold cyan")
         print_table(_table(basis))
+        if basis.sturm is not None:
+            print_line(str(basis.sturm))
     return 0
 
 
-def _record(basis: ModalBasis) -> dict[str, list[float]]:
+def _record(basis: ModalBasis) -> dict[str, object]:
     return {
         "frequencies": basis.frequencies.tolist(),
         "damping": basis.damping_ratio.tolist(),
+        "sturm": None if basis.sturm is None else str(basis.sturm),
     }
 
 

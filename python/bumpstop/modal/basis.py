@@ -10,14 +10,15 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, did_you_mean, not_negative, one_of, series
 from bumpstop.errors import InputError
+from bumpstop.modal.certificate import SturmCount
 from bumpstop.modal.companions import companions
 from bumpstop.modal.coordinates import UserCoordinates, scaled_coordinates
 from bumpstop.modal.damping import Damping, angular_frequencies, modal_damping, with_companions
-from bumpstop.modal.eigen import structure_modes
+from bumpstop.modal.eigen import model_modes
 from bumpstop.modal.given import given_labels, given_vectors, modal_masses
 from bumpstop.modal.places import Place
 from bumpstop.modal.projected import projected
-from bumpstop.modal.selection import AllModes, LowestModes, ModeSelection, mode_selection
+from bumpstop.modal.selection import ModeSelection, mode_selection
 from bumpstop.modal.vectors import DEPENDENT, canonical_vectors
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.gauge import Gauge
@@ -63,6 +64,8 @@ class ModalBasis:
         Which vectors were left out because they depend on others, a sentence each.
     neglected
         What else was left out on request, a sentence each.
+    sturm
+        The proof that no mode is missing; None where there is none.
     """
 
     omega2: FloatArray
@@ -78,6 +81,7 @@ class ModalBasis:
     coordinates: UserCoordinates | None = field(default=None, repr=False)
     dropped: tuple[str, ...] = field(default=(), repr=False)
     neglected: tuple[str, ...] = field(default=(), repr=False)
+    sturm: SturmCount | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         if not self.labels:
@@ -103,7 +107,8 @@ class ModalBasis:
         structure
             The structure, with its supports.
         modes
-            Number of modes, the lowest ones; or ``"all"``, the complete basis.
+            Number of modes, the lowest ones; ``ModesInBand``, ``ModesAround``; or ``"all"``,
+            the complete basis.
         damping
             Ratio of critical damping: one for all modes, or one for each; or a rule such as
             ``RayleighDamping`` or ``StructuralDamping``. What dampers of the structure do to
@@ -130,7 +135,7 @@ class ModalBasis:
             If a value cannot be used, the structure has fewer free dofs than modes, or a place
             is unknown or held.
         """
-        omega2, shapes = _modes(structure, mode_selection(modes))
+        omega2, shapes, sturm = model_modes(structure, mode_selection(modes))
         beside = companions(
             structure,
             shapes,
@@ -152,6 +157,7 @@ class ModalBasis:
             labels=(*_mode_labels(number), *beside.labels),
             coordinates=None if coordinates is None else coordinates.after(number),
             dropped=beside.dropped,
+            sturm=sturm,
         )
 
     @classmethod
@@ -408,15 +414,6 @@ class ModalBasis:
 
 def _mode_labels(count: int) -> tuple[str, ...]:
     return tuple(f"mode {number}" for number in range(1, count + 1))
-
-
-def _modes(model: LinearModel, selection: ModeSelection) -> tuple[FloatArray, FloatArray]:
-    """Return omega2 and shapes of the modes asked for."""
-    if isinstance(selection, LowestModes):
-        return structure_modes(model, selection.count)
-    if isinstance(selection, AllModes):
-        return structure_modes(model, len(model.free))
-    raise InputError("cannot be computed yet", key="modes", value=selection)
 
 
 def _items(shapes: object) -> list[tuple[object, object]]:

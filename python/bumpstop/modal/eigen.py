@@ -1,129 +1,88 @@
-"""The lowest modes of a structure."""
+"""The modes of a model."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import reduce
+from typing import NamedTuple
+
 import numpy as np
 
-from bumpstop._core import CoreError, symmetric_modes
 from bumpstop.arguments import FloatArray
-from bumpstop.errors import ComputationError, InputError
+from bumpstop.errors import InputError
+from bumpstop.modal.certificate import SturmCount
+from bumpstop.modal.coupled import CoupledModes, coupled_modes
+from bumpstop.modal.selected import Range, chosen, range_of
+from bumpstop.modal.selection import LowestModes, ModesAround, ModeSelection
 from bumpstop.modal.signs import largest_positive
-from bumpstop.structure.echelon import independent_columns, null_space
 from bumpstop.structure.graph import components
 from bumpstop.structure.model import LinearModel
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
-__all__ = ["MOST_DOFS", "structure_modes"]
-
-MOST_DOFS = 3000
-"""Most free dofs that move together: their eigenproblem is solved with dense matrices."""
+__all__ = ["Modes", "model_modes"]
 
 
-def structure_modes(model: LinearModel, count: int) -> tuple[FloatArray, FloatArray]:
-    """Return the lowest modes: ``omega2`` (count,) in rad2/s2 and shapes (dofs, count).
+class Modes(NamedTuple):
+    """Modes of a model, by their frequencies."""
 
-    Rigid modes come first, with ``omega2`` exactly zero and the shapes of exact rigid
-    motions; the flexible ones follow, mass-orthogonal to them. Modal masses are one, and the
-    largest component of each shape is positive. Dofs that nothing couples (stretching, twist
-    and bending of a straight beam in its two planes) are solved apart, so that modes of equal
-    frequency do not mix.
+    omega2: FloatArray
+    """Squared angular frequencies in rad2/s2, (N,); exactly zero for rigid modes."""
+    shapes: FloatArray
+    """One a column, of unit modal mass, on all dofs, (dofs, N)."""
+    certificate: SturmCount | None
+    """The proof that none is missing; None where rounding is too large for one."""
+
+
+def model_modes(model: LinearModel, selection: ModeSelection) -> Modes:
+    """Return the modes asked for.
+
+    Rigid modes have ``omega2`` exactly zero and the shapes of exact rigid motions; the
+    flexible ones are mass-orthogonal to them. The largest component of each shape is positive.
+    Dofs that nothing couples (stretching, twist and bending of a straight beam in its two
+    planes) are solved apart, so that modes of equal frequency do not mix. A structure that is
+    unstable has negative ``omega2``, which come first.
 
     Raises
     ------
     InputError
-        If there are fewer free dofs than modes, or too many dofs for dense matrices.
+        If there are fewer free dofs than modes, or too many to have all modes of them.
+    ComputationError
+        If the matrices are too badly conditioned.
     """
-    free = model.free
-    if count > len(free):
-        hint = f"the structure has {len(free)} free dofs"
-        raise InputError("more modes than free dofs", key="modes", value=count, hint=hint)
+    free = len(model.free)
+    if free == 0 or (isinstance(selection, LowestModes | ModesAround) and selection.count > free):
+        asked = getattr(selection, "count", None)
+        hint = f"the structure has {free} free dofs"
+        raise InputError("more modes than free dofs", key="modes", value=asked, hint=hint)
     stiffness, mass = model.reduced(model.stiffness), model.reduced(model.mass)
     rigid = model.rigid_shapes()
-    omega2, shapes = [np.zeros(0)], [np.zeros((len(free), 0))]
-    for dofs in _uncoupled(stiffness, mass):
-        values, vectors = _block_modes(
-            stiffness.restricted(dofs).to_dense(),
-            mass.restricted(dofs).to_dense(),
-            rigid[dofs],
-            count,
-        )
-        omega2.append(values)
-        shapes.append(np.zeros((len(free), len(values))))
-        shapes[-1][dofs] = vectors
-    return _lowest(model, np.concatenate(omega2), np.hstack(shapes), count)
+    groups = _uncoupled(stiffness, mass)
+    found = [
+        coupled_modes(stiffness.restricted(dofs), mass.restricted(dofs), rigid[dofs], selection)
+        for dofs in groups
+    ]
+    shapes, omega2 = _places(found), np.concatenate([modes.omega2 for modes in found])
+    order = np.argsort(omega2, kind="stable")
+    known = reduce(Range.common, (modes.within for modes in found))
+    within = known.common(range_of(selection, omega2[order]))
+    order = order[within.holds(omega2[order])]
+    kept = order[chosen(selection, omega2[order])]
+    certificate = SturmCount(len(order), *within) if all(m.proven for m in found) else None
+    together = np.zeros((free, len(kept)))
+    for column, (group, number) in enumerate(shapes[kept]):
+        together[groups[group], column] = found[group].shapes[:, number]
+    return Modes(omega2[kept], largest_positive(model.expansion @ together), certificate)
 
 
-def _lowest(
-    model: LinearModel, omega2: FloatArray, shapes: FloatArray, count: int
-) -> tuple[FloatArray, FloatArray]:
-    """Return the modes of lowest frequency, on all dofs of the model."""
-    order = np.argsort(omega2, kind="stable")[:count]
-    return omega2[order], largest_positive(model.expansion @ shapes[:, order])
+def _places(found: Sequence[CoupledModes]) -> IndexArray:
+    """Return group and number within it of all modes, (modes, 2)."""
+    sizes = [len(modes.omega2) for modes in found]
+    groups = np.repeat(np.arange(len(sizes)), sizes)
+    return np.column_stack([groups, np.concatenate([np.arange(size) for size in sizes])])
 
 
 def _uncoupled(stiffness: SparseMatrix, mass: SparseMatrix) -> list[IndexArray]:
     """Return the groups of dofs that neither matrix couples to others."""
     rows = np.concatenate([stiffness.rows, mass.rows])
     columns = np.concatenate([stiffness.columns, mass.columns])
-    groups = components(mass.shape[0], rows, columns)
-    largest = max(len(group) for group in groups)
-    if largest > MOST_DOFS:
-        raise InputError(
-            f"{largest} free dofs move together, more than the {MOST_DOFS} that can be solved",
-            hint="take fewer elements",
-        )
-    return [np.array(group) for group in groups]
-
-
-def _block_modes(
-    stiffness: FloatArray, mass: FloatArray, rigid: FloatArray, count: int
-) -> tuple[FloatArray, FloatArray]:
-    """Return up to ``count`` flexible modes, after all rigid ones, of one group of dofs."""
-    # Unit-free dofs; powers of two, so that scaling rounds nothing.
-    scale = 2.0 ** -np.round(0.5 * np.log2(mass.diagonal()))
-    stiffness, mass = (matrix * np.outer(scale, scale) for matrix in (stiffness, mass))
-    still = _orthonormal(independent_columns(_unit_columns(rigid / scale[:, np.newaxis])), mass)
-    omega2, flexible = _flexible_modes(stiffness, mass, still, count)
-    shapes = np.hstack([still, flexible]) * scale[:, np.newaxis]
-    return np.concatenate([np.zeros(still.shape[1]), omega2]), shapes
-
-
-def _flexible_modes(
-    stiffness: FloatArray, mass: FloatArray, rigid: FloatArray, count: int
-) -> tuple[FloatArray, FloatArray]:
-    """Return the lowest modes that are mass-orthogonal to the rigid ones."""
-    complement = null_space((mass @ rigid).T)
-    count = min(count, complement.shape[1])
-    if count == 0:
-        return np.zeros(0), np.zeros((len(mass), 0))
-    reduced_stiffness, reduced_mass = (
-        _symmetric(complement.T @ matrix @ complement) for matrix in (stiffness, mass)
-    )
-    try:
-        _, vectors = symmetric_modes(reduced_stiffness, reduced_mass, count)
-    except CoreError as error:
-        raise ComputationError(f"the modes could not be computed: {error}") from error
-    shapes = complement @ vectors
-    shapes -= rigid @ (rigid.T @ (mass @ shapes))
-    shapes /= np.sqrt(np.sum(shapes * (mass @ shapes), axis=0))
-    # Rayleigh quotients: their error is the square of that of the shapes.
-    omega2: FloatArray = np.sum(shapes * (stiffness @ shapes), axis=0)
-    return omega2, shapes
-
-
-def _orthonormal(shapes: FloatArray, mass: FloatArray) -> FloatArray:
-    """Return shapes with the same span and M-orthonormal, each made of those up to it."""
-    for _ in range(2):  # once more removes what rounding left
-        factor = np.linalg.cholesky(shapes.T @ mass @ shapes)
-        shapes = np.linalg.solve(factor, shapes.T).T
-    return shapes
-
-
-def _unit_columns(matrix: FloatArray) -> FloatArray:
-    largest = np.abs(matrix).max(axis=0)
-    return matrix / np.where(largest > 0.0, largest, 1.0)
-
-
-def _symmetric(matrix: FloatArray) -> FloatArray:
-    symmetric: FloatArray = 0.5 * (matrix + matrix.T)
-    return np.ascontiguousarray(symmetric)
+    return components(mass.shape[0], rows, columns)

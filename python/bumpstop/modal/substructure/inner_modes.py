@@ -6,7 +6,8 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import InputError
-from bumpstop.modal.eigen import structure_modes
+from bumpstop.modal.eigen import model_modes
+from bumpstop.modal.selection import LowestModes
 from bumpstop.structure.model import LinearModel
 
 __all__ = ["flexible_modes"]
@@ -33,8 +34,7 @@ def flexible_modes(model: LinearModel, modes: object, rigid: int) -> FloatArray:
     count = _count(modes, most)
     if count == 0:
         return np.zeros((len(model.dofs), 0))
-    _, shapes = structure_modes(model, rigid + count)
-    return shapes[:, rigid:]
+    return model_modes(model, LowestModes(rigid + count)).shapes[:, rigid:]
 
 
 def _count(modes: object, most: int) -> int:
