@@ -12,6 +12,7 @@ from bumpstop.io.case.build.laws import built_laws
 from bumpstop.io.case.build.loads import built_loads
 from bumpstop.io.case.build.source import require_one_source
 from bumpstop.io.case.keys import keyed
+from bumpstop.io.case.tables.structure import StructureTables
 from bumpstop.problem import Problem
 
 if TYPE_CHECKING:
@@ -20,19 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Builder"]
 
-_STRUCTURE = (
-    "nodes",
-    "matrices",
-    "modes",
-    "materials",
-    "sections",
-    "beams",
-    "masses",
-    "supports",
-    "relations",
-    "links",
-    "basis",
-)
+_STRUCTURE = (*StructureTables.model_fields, "matrices", "modes", "basis")
 """Tables that the modes are made of."""
 
 

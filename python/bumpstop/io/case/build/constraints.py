@@ -8,19 +8,19 @@ from bumpstop.io.case.keys import keyed
 from bumpstop.structure import Relation, RigidLink, Support
 
 if TYPE_CHECKING:
-    from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.io.case.tables.structure import StructureTables
 
 __all__ = ["built_links", "built_relations", "built_supports"]
 
 
-def built_supports(case: CaseFile) -> list[Support]:
+def built_supports(case: StructureTables) -> list[Support]:
     """Return the supports."""
     return [
         Support(nodes=_all_or(table.nodes), fixed=tuple(table.fixed)) for table in case.supports
     ]
 
 
-def built_relations(case: CaseFile) -> list[Relation]:
+def built_relations(case: StructureTables) -> list[Relation]:
     """Return the relations between dofs."""
     relations = []
     for number, table in enumerate(case.relations):
@@ -32,7 +32,7 @@ def built_relations(case: CaseFile) -> list[Relation]:
     return relations
 
 
-def built_links(case: CaseFile) -> list[RigidLink]:
+def built_links(case: StructureTables) -> list[RigidLink]:
     """Return the rigid links."""
     links = []
     for name, table in case.links.items():

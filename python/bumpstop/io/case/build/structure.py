@@ -12,12 +12,12 @@ from bumpstop.structure import Beam, Material, PointMass, Rectangle, Structure
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.beams import BeamTable
-    from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.io.case.tables.structure import StructureTables
 
 __all__ = ["built_structure"]
 
 
-def built_structure(case: CaseFile) -> Structure:
+def built_structure(case: StructureTables) -> Structure:
     """Return the structure that the tables describe."""
     return Structure(
         nodes=case.nodes,
@@ -31,7 +31,7 @@ def built_structure(case: CaseFile) -> Structure:
     )
 
 
-def _beams(case: CaseFile) -> list[Beam]:
+def _beams(case: StructureTables) -> list[Beam]:
     materials, sections = {}, {}
     for name, material in case.materials.items():
         with keyed(f"materials.{name}"):
