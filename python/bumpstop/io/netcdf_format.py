@@ -89,14 +89,20 @@ def _dataset(group: h5py.h5g.GroupID, variable: Variable) -> h5d.DatasetID:
 def _created(
     group: h5py.h5g.GroupID, name: str, stored: h5t.TypeID, shape: tuple[int, ...]
 ) -> h5d.DatasetID:
+    largest = tuple(length or h5s.UNLIMITED for length in shape)
+    space = h5s.create_simple(shape, largest)
+    return h5d.create(group, name.encode(), stored, space, _layout(shape if 0 in shape else ()))
+
+
+@cache
+def _layout(growing: tuple[int, ...]) -> h5p.PropDCID:
+    """Return how a dataset is stored, in pieces where its shape has a dimension without length."""
     layout = h5p.create(h5p.DATASET_CREATE)
     layout.set_obj_track_times(False)
     layout.set_attr_creation_order(IN_ORDER)
-    largest = shape
-    if 0 in shape:
-        largest = tuple(length or h5s.UNLIMITED for length in shape)
-        layout.set_chunk(tuple(length or GROWTH for length in shape))
-    return h5d.create(group, name.encode(), stored, h5s.create_simple(shape, largest), layout)
+    if growing:
+        layout.set_chunk(tuple(length or GROWTH for length in growing))
+    return layout
 
 
 def _scales(

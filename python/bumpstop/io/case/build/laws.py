@@ -18,5 +18,5 @@ def built_laws(case: CaseFile) -> list[Stop]:
     laws = []
     for name, table in case.stops.items():
         with keyed(f"stops.{name}"):
-            laws.append(Stop(name, **table.model_dump()))
+            laws.append(Stop(name, **dict(table)))
     return laws

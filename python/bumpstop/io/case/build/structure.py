@@ -35,7 +35,7 @@ def _beams(case: StructureTables) -> list[Beam]:
     materials, sections = {}, {}
     for name, material in case.materials.items():
         with keyed(f"materials.{name}"):
-            materials[name] = Material(**material.model_dump())
+            materials[name] = Material(**dict(material))
     for name, section in case.sections.items():
         with keyed(f"sections.{name}"):
             sections[name] = Rectangle(height=section.height, width=section.width)
