@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from bumpstop._core import CoreError, SparseFactor
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError
 from bumpstop.structure.echelon import independent_rows
@@ -38,13 +39,22 @@ class StaticSolver:
         if rigid is not None:
             moving[independent_rows(rigid)] = False
         self._moving = np.flatnonzero(moving)
-        self._matrix = stiffness.restricted(self._moving).to_dense()
+        self._factor = _factored(stiffness.restricted(self._moving)) if len(self._moving) else None
 
     def solve(self, loads: FloatArray) -> FloatArray:
         """Return the displacements (n, m) under loads (n, m)."""
         displacements = np.zeros(loads.shape)
-        try:
-            displacements[self._moving] = np.linalg.solve(self._matrix, loads[self._moving])
-        except np.linalg.LinAlgError as error:
-            raise ComputationError("the stiffness matrix is singular") from error
+        if self._factor is not None:
+            inner = np.ascontiguousarray(loads[self._moving])
+            displacements[self._moving] = self._factor.solve(inner)
         return displacements
+
+
+def _factored(matrix: SparseMatrix) -> SparseFactor:
+    try:
+        factor = SparseFactor((matrix.starts, matrix.rows, matrix.values))
+    except CoreError as error:
+        raise ComputationError(f"the stiffness matrix cannot be factored: {error}") from error
+    if factor.singular_at is not None:
+        raise ComputationError("the stiffness matrix is singular")
+    return factor
