@@ -16,8 +16,11 @@ def test_modes(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["modes", str(SDNL32)]) == 0
     lines = [line.split() for line in capsys.readouterr().out.splitlines()]
     assert ["soft,", "stiff"] in lines
-    assert ["1", "0", "1"] in lines
-    assert ["2", "85.4068", "1"] in lines
+    # The rigid rotation of a rod takes three quarters of its mass, its generalised mass is a third.
+    assert ["1", "0", "1", "0.1228", "0.00", "74.99", "0.00"] in lines
+    assert ["2", "85.4068", "1"] in [line[:3] for line in lines]
+    assert lines[-2][0] == "sum"
+    assert " ".join(lines[-1]).startswith("10 modes below ")
 
 
 def test_modes_as_json(capsys: pytest.CaptureFixture[str]) -> None:
@@ -28,6 +31,25 @@ def test_modes_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert record["frequencies"] == basis.frequencies.tolist()
     assert record["damping"] == [0.01] * 10
     assert record["variants"]["stiff"]["frequencies"] == record["frequencies"]
+    mass = 2400 * 0.014**2 * 0.783
+    assert record["total_mass"]["dy"] == pytest.approx(mass)
+    assert record["effective_mass"]["dy"][0] == pytest.approx(0.75 * mass, rel=1e-3)
+    assert record["generalised_mass"][0] == pytest.approx(mass / 3, rel=1e-3)
+    assert record["labels"][9] == "mode 10"
+    assert len(record["remarks"]) == 1
+
+
+def test_modes_with_static_shapes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "case.toml"
+    shapes = 'modes = 4\nstatic_shapes = [["B", "dy"], ["B", "drz"], ["B", [0, 3, 0]]]\n'
+    file.write_text(SDNL32.read_text().replace("modes = 10\n", shapes))
+    assert main(["modes", str(file)]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert lines[3][-1] == "what"
+    assert lines[4][-2:] == ["mode", "1"]
+    assert lines[8][-1] == lines[9][-1] == "combination"
+    dropped = "static shape of B.dy is left out: it depends on those before it"
+    assert " ".join(lines[-1]) == dropped
 
 
 def test_modes_of_variants_with_other_structures(

@@ -25,7 +25,7 @@ def chain(**matrices: Any) -> bs.Matrices:
     return bs.Matrices(stiffness=STIFFNESS, mass=MASS, dofs=DOFS, **matrices)
 
 
-@given(st.floats(0, 10), st.floats(0, 1e-3))
+@given(st.floats(1e-9, 10), st.floats(1e-9, 1e-3))
 def test_rayleigh_damping_is_that_of_its_matrix(alpha: float, beta: float) -> None:
     """By rule or as a matrix of the model: the same damping, without coupling."""
     by_rule = bs.ModalBasis.from_structure(

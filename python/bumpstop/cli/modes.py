@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any, NamedTuple
 
 from bumpstop.cli.console import Table, print_json, print_line, print_table
 from bumpstop.io.case import load_case
-from bumpstop.modal.basis import ModalBasis
+from bumpstop.modal.basis import ModalBasis, mode_labels
+from bumpstop.modal.masses import generalised_mass, participation
 
 __all__ = ["modes_command"]
 
 
 def modes_command(path: Path, *, json: bool) -> int:
-    """Print the frequencies and damping of each basis of a case; return the status.
+    """Print the modes of each basis of a case, and what is to be said of them; return the status.
 
     Variants that change nothing of the structure share a basis. The JSON object has the
     first variant's on top, and each variant's under its name.
@@ -29,25 +32,60 @@ def modes_command(path: Path, *, json: bool) -> int:
         print_line()
         print_line(", ".join(name for name in bases if bases[name] is basis), style="bold cyan")
         print_table(_table(basis))
-        if basis.sturm is not None:
-            print_line(str(basis.sturm))
+        for remark in _remarks(basis):
+            print_line(f"  {remark}")
     return 0
 
 
-def _record(basis: ModalBasis) -> dict[str, object]:
-    return {
+def _remarks(basis: ModalBasis) -> list[str]:
+    proof = [] if basis.sturm is None else [str(basis.sturm)]
+    return [*proof, *basis.remarks]
+
+
+def _record(basis: ModalBasis) -> dict[str, Any]:
+    record: dict[str, Any] = {
         "frequencies": basis.frequencies.tolist(),
         "damping": basis.damping_ratio.tolist(),
-        "sturm": None if basis.sturm is None else str(basis.sturm),
+        "labels": list(basis.canonical_labels),
+        "generalised_mass": generalised_mass(basis).tolist(),
+        "remarks": _remarks(basis),
     }
+    if basis.has_masses:
+        part = participation(basis)
+        totals = zip(part.directions, part.total.tolist(), strict=True)
+        masses = zip(part.directions, part.effective_mass.T.tolist(), strict=True)
+        record |= {"total_mass": dict(totals), "effective_mass": dict(masses)}
+    return record
 
 
 def _table(basis: ModalBasis) -> Table:
-    pairs = zip(basis.frequencies, basis.damping_ratio, strict=True)
-    return Table(
-        headers=("mode", "frequency [Hz]", "damping [%]"),
-        rows=[
-            (str(mode), f"{frequency:.6g}", f"{100 * ratio:.4g}")
-            for mode, (frequency, ratio) in enumerate(pairs, start=1)
-        ],
-    )
+    """Return a row a mode, and a last one that adds up what can be added."""
+    columns = [
+        _Column("mode", [str(number) for number in range(1, len(basis.omega2) + 1)]),
+        _Column("frequency [Hz]", [f"{value:.6g}" for value in basis.frequencies]),
+        _Column("damping [%]", [f"{100 * value:.4g}" for value in basis.damping_ratio]),
+        _Column("mass [kg]", [f"{value:.4g}" for value in generalised_mass(basis)]),
+    ]
+    if basis.has_masses:
+        part = participation(basis)
+        shares = zip(part.directions, part.fractions.T, part.sums, strict=True)
+        columns += [
+            _Column(f"{name} [%]", [_percent(value) for value in values], _percent(total))
+            for name, values, total in shares
+        ]
+    if basis.canonical_labels != mode_labels(len(basis.omega2)):
+        columns.append(_Column("what", basis.canonical_labels))
+    rows = list(zip(*(column.cells for column in columns), strict=True))
+    if basis.has_masses:
+        rows.append(("sum", *(column.total for column in columns[1:])))
+    return Table(headers=[column.header for column in columns], rows=rows)
+
+
+class _Column(NamedTuple):
+    header: str
+    cells: Sequence[str]
+    total: str = ""
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2f}"

@@ -25,7 +25,7 @@ from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.model import LinearModel, StrainModel
 from bumpstop.structure.structure import Structure
 
-__all__ = ["ModalBasis"]
+__all__ = ["ModalBasis", "mode_labels"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +85,7 @@ class ModalBasis:
 
     def __post_init__(self) -> None:
         if not self.labels:
-            object.__setattr__(self, "labels", _mode_labels(len(self.omega2)))
+            object.__setattr__(self, "labels", mode_labels(len(self.omega2)))
 
     @classmethod
     def from_structure(
@@ -154,7 +154,7 @@ class ModalBasis:
         coordinates = beside.coordinates
         return replace(
             basis,
-            labels=(*_mode_labels(number), *beside.labels),
+            labels=(*mode_labels(number), *beside.labels),
             coordinates=None if coordinates is None else coordinates.after(number),
             dropped=beside.dropped,
             sturm=sturm,
@@ -320,6 +320,19 @@ class ModalBasis:
         return 2.0 * self.damping_ratio * angular_frequencies(self.omega2)
 
     @property
+    def canonical_labels(self) -> tuple[str, ...]:
+        """What each canonical vector is, (N,): one of the user's, or a combination of them."""
+        if self.coordinates is None:
+            return self.labels
+        alone = self.coordinates.alone()
+        return tuple("combination" if of is None else self.labels[of] for of in alone)
+
+    @property
+    def has_masses(self) -> bool:
+        """Whether the mass of the whole model is known."""
+        return self.model is not None and self.mass_rows is not None
+
+    @property
     def remarks(self) -> tuple[str, ...]:
         """What a user should know of this basis, a sentence each."""
         return (*self._unstable, *self.dropped, *self.neglected)
@@ -412,7 +425,8 @@ class ModalBasis:
         return {dof: number for number, dof in enumerate(self.dofs)}
 
 
-def _mode_labels(count: int) -> tuple[str, ...]:
+def mode_labels(count: int) -> tuple[str, ...]:
+    """Return what modes are called: ``mode 1`` and so on."""
     return tuple(f"mode {number}" for number in range(1, count + 1))
 
 

@@ -11,6 +11,9 @@ from bumpstop.arguments import FloatArray
 
 __all__ = ["UserCoordinates", "scaled_coordinates"]
 
+COMBINED = 1e-9
+"""A vector that has less than this of another one, relative to its own, has nothing of it."""
+
 
 @dataclass(frozen=True, eq=False)
 class UserCoordinates:
@@ -29,6 +32,12 @@ class UserCoordinates:
 
     to_canonical: FloatArray
     from_canonical: FloatArray
+
+    def alone(self) -> list[int | None]:
+        """Return for each canonical vector which of the user's it is; None for combinations."""
+        sizes = np.abs(self.from_canonical)
+        made_of = sizes > COMBINED * sizes.max(axis=0)
+        return [int(row.argmax()) if np.count_nonzero(row) == 1 else None for row in made_of.T]
 
     def of(self, kept: Sequence[int]) -> UserCoordinates:
         """Return the same for some of the user's vectors."""

@@ -89,7 +89,7 @@ def participation(basis: ModalBasis, directions: Sequence[str] = TRANSLATIONS) -
     ([[4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], [1.0, 1.0, 0.0])
     """
     model = basis.model
-    if model is None or basis.mass_rows is None:
+    if model is None or basis.mass_rows is None:  # has_masses, but so that mypy sees it
         hint = "make it from a structure or from matrices"
         raise InputError("this basis knows no masses", key="basis", hint=hint)
     names = listed("directions", directions)
