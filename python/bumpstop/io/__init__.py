@@ -10,13 +10,23 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from bumpstop.io.matrices import read_matrices, write_matrices
+    from bumpstop.io.meshes import LineMesh, read_mesh
     from bumpstop.io.modes import ModeSet, read_modes
 
-__all__ = ["ModeSet", "read_matrices", "read_modes", "write_matrices"]
+__all__ = [
+    "LineMesh",
+    "ModeSet",
+    "read_matrices",
+    "read_mesh",
+    "read_modes",
+    "write_matrices",
+]
 
 _HOME = {
+    "LineMesh": "meshes",
     "ModeSet": "modes",
     "read_matrices": "matrices",
+    "read_mesh": "meshes",
     "read_modes": "modes",
     "write_matrices": "matrices",
 }
