@@ -10,6 +10,7 @@ from bumpstop.arguments import FloatArray, Vector
 from bumpstop.errors import InputError
 from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.forms import LinearForm
+from bumpstop.structure.model import InertiaModel
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
@@ -35,13 +36,14 @@ def direction_row(
         If the basis has no shape there, or the structure has no mass for a force to move.
     """
     row = np.zeros(len(basis.omega2))
+    model = basis.model if isinstance(basis.model, InertiaModel) else None
     forms = []
     for component, dof in zip(direction, dofs, strict=True):
         if component != 0.0:
             row += component * basis.row(node, dof)
-            if basis.structure is not None:
-                forms.append((component, basis.structure.displacement_form(node, dof)))
-    if basis.structure is not None and not basis.structure.has_inertia(LinearForm.sum(forms)):
+            if model is not None:
+                forms.append((component, model.displacement_form(node, dof)))
+    if model is not None and not model.has_inertia(LinearForm.sum(forms)):
         hint = "give the node mass" if dofs == TRANSLATIONS else "give the node rotary inertia"
         raise InputError("a force here has no mass to move", key="node", value=node, hint=hint)
     return row

@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy.linalg
 import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bumpstop import InputError, Matrices, Structure
+from bumpstop import InputError, Matrices, ModalBasis, NodalForce, Structure
 from bumpstop.arguments import FloatArray
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.model import LinearModel
@@ -82,7 +83,11 @@ REFUSED = [
     ({"gyroscopic": np.eye(2)}, r"gyroscopic: must be skew-symmetric, but is 1 at \(P.dx, P.dx\)"),
     ({"stiffness": [[2.0, np.nan], [np.nan, 2.0]]}, r"stiffness: must be finite at \(Q.dx, P.dx\)"),
     ({"mass": [[1.0, 0.0], [0.0, -1.0]]}, r"mass: must not be negative at Q.dx \(got -1.0\)"),
-    ({"mass": np.diag([1.0, 0.0])}, "mass: dx of node 'Q' can move but have no mass"),
+    (
+        {"mass": np.diag([1.0, 0.0]), "damping": SPRING},
+        "nodes.Q: dx is moved by a damper, but has no mass",
+    ),
+    ({"mass": np.zeros((2, 2))}, "nothing that can move has mass"),
     ({"stiffness": SPRING + 1j}, "stiffness: must be real, not complex"),
     ({"stiffness": [[1.0], [1.0, 2.0]]}, "stiffness: must be a matrix"),
     ({"stiffness": [1.0, 2.0]}, "stiffness: must be a matrix"),
@@ -106,7 +111,7 @@ def test_what_is_wrong_is_said_in_one_line(changes: dict[str, Any], message: str
 
 
 def test_a_matrix_that_is_not_positive_is_refused_as_mass() -> None:
-    with pytest.raises(InputError, match="mass: is not positive definite"):
+    with pytest.raises(InputError, match=r"mass: must not be negative, but is for some motion"):
         pair(mass=[[1.0, 2.0], [2.0, 1.0]])
 
 
@@ -121,6 +126,47 @@ def test_unknown_places_are_named() -> None:
         model.displacement_form("P", "dy")
     with pytest.raises(InputError, match=r"the position of this node is not known .got 'Q'."):
         model.rigid_field(rotation=(0.0, 0.0, 1.0))
+
+
+def test_what_has_no_mass_follows_or_is_left_out() -> None:
+    """A mass on two springs in line, between which nothing has mass, and a dof of nobody."""
+    stiffness = np.zeros((3, 3))
+    stiffness[:2, :2] = [[3.0 + 2.0, -2.0], [-2.0, 2.0]]
+    model = Matrices(
+        stiffness=stiffness,
+        mass=np.diag([0.0, 4.0, 0.0]),
+        dofs=[("joint", "dx"), ("P", "dx"), ("P", "drx")],
+    )
+    assert model.free.tolist() == [1]
+    np.testing.assert_allclose(model.expansion.to_dense(), [[0.4], [1.0], [0.0]])
+    basis = ModalBasis.from_structure(model, modes="all")
+    np.testing.assert_allclose(basis.omega2, [(3.0 * 2.0 / 5.0) / 4.0])
+    push = NodalForce("push", node="joint", force=(1, 0, 0))
+    with pytest.raises(InputError, match=r"a force here has no mass to move .got 'joint'."):
+        push.modal_force(basis)
+
+
+def test_lumped_masses_without_rotary_inertia(cantilever: Cantilever) -> None:
+    """As SciPy finds by condensing the rotations itself."""
+    structure = cantilever(elements=6)
+    mass = np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0] * len(structure.mesh.names))
+    clamped = of(structure)
+    model = Matrices(
+        stiffness=clamped.stiffness,
+        mass=mass,
+        dofs=clamped.dofs,
+        positions=clamped.positions,
+        fixed=clamped.fixed,
+    )
+    stiffness = structure.stiffness.to_dense()
+    moves = np.flatnonzero([dof[:2] != "dr" and node != "A" for node, dof in model.dofs])
+    turns = np.flatnonzero([dof[:2] == "dr" and node != "A" for node, dof in model.dofs])
+    follow = np.linalg.solve(stiffness[np.ix_(turns, turns)], stiffness[np.ix_(turns, moves)])
+    schur = stiffness[np.ix_(moves, moves)] - stiffness[np.ix_(moves, turns)] @ follow
+    expected = scipy.linalg.eigh(schur, eigvals_only=True)[:8]
+    np.testing.assert_allclose(
+        ModalBasis.from_structure(model, modes=8).omega2, expected, rtol=1e-8
+    )
 
 
 @pytest.mark.parametrize("positions", [True, False])

@@ -6,18 +6,25 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray, Vector, did_you_mean, listed, one_of, positive, vector
 from bumpstop.errors import InputError
+from bumpstop.structure.assembly import KINDS
 from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.elimination import Freedom
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.frame import rigid_motions
 from bumpstop.structure.given import GivenMatrix, skew_matrix, symmetric_matrix
 from bumpstop.structure.graph import components
-from bumpstop.structure.null_motions import LARGEST_DENSE, null_motions
+from bumpstop.structure.mobility import Mobility, mobility
+from bumpstop.structure.null_motions import LARGEST_DENSE, is_definite, null_motions
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
 __all__ = ["Matrices"]
+
+ROUNDING = 1e-9
+"""A mass matrix of unit diagonal is definite if its eigenvalues are above this."""
 
 ACCURACY = 1e-13
 """How well numbers in double precision keep what was assembled from them."""
@@ -25,6 +32,9 @@ ACCURACY = 1e-13
 
 class Matrices:
     """A linear structure given by its matrices, from any finite-element code.
+
+    Dofs without mass follow the others in equilibrium; those that nothing resists either are left
+    out.
 
     Parameters
     ----------
@@ -50,7 +60,7 @@ class Matrices:
     ------
     InputError
         If a matrix is not finite, not symmetric or of another size than the dofs; if a dof
-        appears twice or is not known; if a dof that can move has no mass, or mass is negative.
+        appears twice or is not known; if mass is negative, or a motion without mass is damped.
 
     Examples
     --------
@@ -103,23 +113,26 @@ class Matrices:
         for number, (node, dof) in enumerate(self.fixed):
             self._number(node, dof, f"fixed[{number}]", f"fixed[{number}]")
         self._refuse_negative_mass()
-        self._refuse_massless_dofs()
         self._refuse_indefinite_mass()
+        self._mobility  # noqa: B018  # says what is wrong now, not when modes are asked for
 
-    @cached_property
+    @property
     def free(self) -> IndexArray:
-        """Numbers of the dofs that are not fixed, ascending."""
-        held = set(self.fixed)
-        return np.array([i for i, dof in enumerate(self.dofs) if dof not in held], dtype=np.intp)
+        """Numbers of the dofs that move by themselves, ascending: not fixed, not massless."""
+        return self._mobility.freedom.free
 
-    @cached_property
+    @property
     def expansion(self) -> SparseMatrix:
-        """All dofs from the free ones, (dofs, free): a selection."""
-        return SparseMatrix.selection(len(self.dofs), self.free)
+        """All dofs from the free ones, (dofs, free); massless ones follow in equilibrium."""
+        return self._mobility.freedom.expansion
 
     def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
-        """Return the part of a matrix on all dofs that belongs to the free ones."""
-        return matrix.restricted(self.free)
+        """Return a matrix of all dofs as one of the free dofs, expansion' @ matrix @ expansion."""
+        return self._mobility.freedom.reduced(matrix)
+
+    def has_inertia(self, form: LinearForm) -> bool:
+        """Tell whether a force along a form accelerates masses alone."""
+        return self._mobility.has_inertia(form)
 
     def displacement_form(self, node: str, dof: str) -> LinearForm:
         """Return one dof of a node as a form of all dofs.
@@ -245,36 +258,47 @@ class Matrices:
                 f"must not be negative at {place}", key="mass", value=float(diagonal[worst])
             )
 
-    def _refuse_massless_dofs(self) -> None:
-        """Raise where a dof can move that has no inertia: its acceleration has no meaning."""
-        massless = self.free[self.mass.diagonal()[self.free] == 0.0]
-        if len(massless):
-            node = self.dofs[massless[0]][0]
-            dofs = ", ".join(
-                dof for known, dof in (self.dofs[i] for i in massless) if known == node
-            )
-            what = f"{dofs} of node {node!r} can move but have no mass"
-            raise InputError(what, key="mass", hint="fix or condense them")
-
     def _refuse_indefinite_mass(self) -> None:
-        """Raise where some motion would have negative kinetic energy, or none."""
-        mass = self.reduced(self.mass)
-        for dofs in components(mass.shape[0], mass.rows, mass.columns):
-            group = np.array(dofs)
-            if 1 < len(group) <= LARGEST_DENSE and not _is_positive(mass.restricted(group)):
-                place = ".".join(self.dofs[self.free[group[0]]])
-                what = f"is not positive definite: some motion with {place} has no inertia"
+        """Raise where some motion would have negative kinetic energy."""
+        for group, matrix in self._mass_groups:
+            if not is_definite(matrix, -ROUNDING):
+                place = ".".join(self.dofs[group[0]])
+                what = f"must not be negative, but is for some motion with {place}"
                 raise InputError(what, key="mass")
 
+    @cached_property
+    def _mobility(self) -> Mobility:
+        held = np.zeros(len(self.dofs), dtype=bool)
+        held[[self._numbers[dof] for dof in self.fixed]] = True
+        kept = np.flatnonzero(~held)
+        told = Freedom(kept, SparseMatrix.selection(len(held), kept))
+        matrices = {kind: getattr(self, kind) for kind in KINDS}
+        return mobility(self.dofs, told, self._scale, self._massive, matrices)
 
-def _is_positive(matrix: SparseMatrix) -> bool:
-    dense = matrix.to_dense()
-    scale = 1.0 / np.sqrt(dense.diagonal())
-    try:
-        np.linalg.cholesky(dense * np.outer(scale, scale))
-    except np.linalg.LinAlgError:
-        return False
-    return True
+    @cached_property
+    def _massive(self) -> NDArray[np.bool_]:
+        """Which dofs have inertia in whatever way they move, (dofs,)."""
+        massive = self.mass.diagonal() > 0.0
+        for group, matrix in self._mass_groups:
+            massive[group] = is_definite(matrix, ROUNDING)
+        return massive
+
+    @cached_property
+    def _mass_groups(self) -> list[tuple[IndexArray, FloatArray]]:
+        """Dofs that the mass matrix couples, with their mass, where they are not too many."""
+        groups = (
+            np.array(group)
+            for group in components(len(self.dofs), self.mass.rows, self.mass.columns)
+            if 1 < len(group) <= LARGEST_DENSE
+        )
+        return [(group, self.mass.restricted(group).to_dense()) for group in groups]
+
+    @property
+    def _scale(self) -> FloatArray:
+        """Size of a typical motion of each dof: it moves something by about 1 m."""
+        places = np.array([*self.positions.values()] or [(0.0, 0.0, 0.0)])
+        size = float(np.ptp(places, axis=0).max()) or 1.0
+        return np.array([1.0 / size if dof.startswith("dr") else 1.0 for _, dof in self.dofs])
 
 
 def _dofs(key: str, given: object) -> tuple[Dof, ...]:

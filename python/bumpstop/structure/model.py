@@ -10,7 +10,7 @@ from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
-__all__ = ["LinearModel", "StrainModel"]
+__all__ = ["InertiaModel", "LinearModel", "StrainModel"]
 
 
 class LinearModel(Protocol):
@@ -72,6 +72,17 @@ class LinearModel(Protocol):
         about: Vector = (0.0, 0.0, 0.0),
     ) -> FloatArray:
         """Return a small rigid motion of all dofs, those that are held too, (dofs,)."""
+
+
+@runtime_checkable
+class InertiaModel(Protocol):
+    """What a model offers beside, if some of its motions may be without inertia."""
+
+    def displacement_form(self, node: str, dof: str) -> LinearForm:
+        """Return one dof of a node as a form of all dofs."""
+
+    def has_inertia(self, form: LinearForm) -> bool:
+        """Tell whether a force along a form accelerates masses alone."""
 
 
 @runtime_checkable

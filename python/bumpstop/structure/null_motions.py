@@ -9,7 +9,7 @@ from bumpstop.structure.echelon import independent_columns, null_space
 from bumpstop.structure.graph import components
 from bumpstop.structure.sparse import SparseMatrix
 
-__all__ = ["LARGEST_DENSE", "null_motions"]
+__all__ = ["LARGEST_DENSE", "is_definite", "null_motions"]
 
 LARGEST_DENSE = 3000
 """Most dofs that move together whose matrix is searched for motions that nobody proposed."""
@@ -84,6 +84,19 @@ def _further(stiffness: FloatArray, known: FloatArray, accuracy: float) -> Float
     values, vectors = np.linalg.eigh(stiffened)
     loose: FloatArray = scale[:, np.newaxis] * vectors[:, np.abs(values) <= accuracy * size]
     return _unit_columns(loose)
+
+
+def is_definite(matrix: FloatArray, bound: float) -> bool:
+    """Tell whether a symmetric matrix, scaled to unit diagonal, has its eigenvalues above a bound.
+
+    Examples
+    --------
+    >>> is_definite(np.diag([2e6, 1e-6]), 0.5), is_definite(np.ones((2, 2)), 1e-9)
+    (True, False)
+    """
+    diagonal = matrix.diagonal()
+    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    return _exceeds(matrix * np.outer(scale, scale), bound)
 
 
 def _exceeds(matrix: FloatArray, bound: float) -> bool:
