@@ -28,6 +28,7 @@ class Reference:
     def __init__(self, schema: Schema) -> None:
         self.definitions = schema["$defs"]
         self.schema = schema
+        self.described: set[str] = set()
 
     def sections(self) -> Iterator[str]:
         """Describe the keys at the top of the file, then each table."""
@@ -43,13 +44,19 @@ class Reference:
         title = f"[[{path}]]" if field.get("type") == "array" else f"[{path}]"
         named = _named(field)
         if named is not None and not _references(named):
-            yield from _section(f"`{title}`", field.get("description", ""), {"NAME": named}, {})
+            if field.get("description") not in self.described:
+                self.described.add(field["description"])
+                yield from _section(f"`{title}`", field["description"], {"NAME": named}, {})
             return
         if named is not None:
-            title = f"[{path}.NAME]"
+            path = f"{path}.NAME"
+            title = f"[{path}]"
         for reference in _references(field):
-            table = self.definitions[reference.rpartition("/")[2]]
-            yield from self._table(title, path, table)
+            # A component has the tables of a structure, which were described at the top.
+            if reference not in self.described:
+                self.described.add(reference)
+                table = self.definitions[reference.rpartition("/")[2]]
+                yield from self._table(title, path, table)
 
     def _table(self, title: str, path: str, table: Schema) -> Iterator[str]:
         fields = table["properties"]
@@ -99,6 +106,8 @@ def _value(field: Schema) -> str:
         kinds = [_value(kind) for kind in field["anyOf"] if kind.get("type") != "null"]
         return _with_examples(" or ".join(dict.fromkeys(kinds)), field)
     kind = field.get("type", "any")
+    if "prefixItems" in field:
+        return f"list: {', '.join(map(_value, field['prefixItems']))}"
     if kind == "array":
         count = field.get("minItems")
         some = f"{count} " if count and count == field.get("maxItems") else ""

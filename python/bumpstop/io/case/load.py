@@ -15,6 +15,7 @@ from pydantic import ValidationError
 from bumpstop.errors import InputError
 from bumpstop.io.case.build import Builder
 from bumpstop.io.case.case import Case, Method, MethodOptions
+from bumpstop.io.case.component_files import with_component_files
 from bumpstop.io.case.document import read_document
 from bumpstop.io.case.keys import dotted
 from bumpstop.io.case.mistakes import first_mistake
@@ -58,7 +59,7 @@ def load_case(path: str | PathLike[str]) -> Case:
 
 
 def _case(file: Path, document: dict[str, Any]) -> Case:
-    base = _checked(document)
+    base = _checked(document, file.parent)
     variants = _variants(document, base, file.parent)
     problems = _problems(variants, base, file.parent)
     method = _method(base)
@@ -88,9 +89,9 @@ def _method(case: CaseFile) -> Method:
     return Method(case.run.method, options)
 
 
-def _checked(document: dict[str, Any]) -> CaseFile:
+def _checked(document: dict[str, Any], folder: Path) -> CaseFile:
     try:
-        return CaseFile.model_validate(document)
+        return CaseFile.model_validate(with_component_files(document, folder))
     except ValidationError as error:
         raise first_mistake(error, CaseFile) from error
 
@@ -100,7 +101,7 @@ def _variants(document: dict[str, Any], base: CaseFile, folder: Path) -> dict[st
     variants = {}
     for name, changes in base.variants.items():
         with _in_variant(name, base, folder):
-            variants[name] = _checked(overridden(document, changes))
+            variants[name] = _checked(overridden(document, changes), folder)
     return variants or {BASE: base}
 
 

@@ -34,7 +34,9 @@ def flexible_modes(model: LinearModel, modes: object, rigid: int) -> FloatArray:
     count = _count(modes, most)
     if count == 0:
         return np.zeros((len(model.dofs), 0))
-    return model_modes(model, LowestModes(rigid + count)).shapes[:, rigid:]
+    modes_with_rigid = model_modes(model, LowestModes(rigid + count))
+    # Not the first ones: a model that buckles has modes below its rigid ones.
+    return modes_with_rigid.shapes[:, modes_with_rigid.omega2 != 0.0]
 
 
 def _count(modes: object, most: int) -> int:

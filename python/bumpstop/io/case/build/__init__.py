@@ -10,7 +10,7 @@ from bumpstop.io.case.build.gauges import built_gauges
 from bumpstop.io.case.build.initial import built_initial
 from bumpstop.io.case.build.laws import built_laws
 from bumpstop.io.case.build.loads import built_loads
-from bumpstop.io.case.build.source import require_one_source
+from bumpstop.io.case.build.source import SOURCES, require_one_source
 from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.tables.structure import StructureTables
 from bumpstop.problem import Problem
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Builder"]
 
-_STRUCTURE = (*StructureTables.model_fields, "matrices", "modes", "basis")
+_STRUCTURE = (*SOURCES, *StructureTables.model_fields, "components", "joints", "basis")
 """Tables that the modes are made of."""
 
 

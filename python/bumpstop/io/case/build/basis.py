@@ -43,6 +43,10 @@ def _model(case: CaseFile, folder: Path) -> LinearModel:
         from bumpstop.io.case.build.matrices import built_matrices
 
         return built_matrices(case, case.matrices, folder)
+    if case.parts:
+        from bumpstop.io.case.build.assembly import built_assembly
+
+        return built_assembly(case, folder)
     with keyed():
         return built_structure(case)
 

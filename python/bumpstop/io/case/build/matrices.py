@@ -13,8 +13,8 @@ from bumpstop.io.matrices.read import MatrixSet, read_matrix_set
 from bumpstop.structure.matrices import ACCURACY, Matrices
 
 if TYPE_CHECKING:
-    from bumpstop.io.case.tables.case_file import CaseFile
     from bumpstop.io.case.tables.matrices import MatricesTable
+    from bumpstop.io.case.tables.structure import StructureTables
     from bumpstop.io.case.tables.supports import SupportTable
     from bumpstop.structure.dofs import Dof
 
@@ -23,15 +23,15 @@ __all__ = ["built_matrices"]
 _FILES = ("stiffness", "mass", "damping", "gyroscopic", "circulatory")
 
 
-def built_matrices(case: CaseFile, table: MatricesTable, folder: Path) -> Matrices:
-    """Return the model that the files hold, with the supports of the case."""
+def built_matrices(tables: StructureTables, table: MatricesTable, folder: Path) -> Matrices:
+    """Return the model that the files hold, with the supports of the tables."""
     names = {key: getattr(table, key) for key in _FILES}
     with keyed("matrices"):
         given = read_matrix_set(
             {key: folder / name for key, name in names.items() if name is not None},
             None if table.dofs is None else folder / table.dofs,
         )
-    fixed = [*_held(case.supports, given)]
+    fixed = [*_held(tables.supports, given)]
     with keyed("matrices"):
         return given.model(fixed=fixed, accuracy=table.accuracy or ACCURACY)
 

@@ -6,17 +6,23 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from bumpstop.errors import InputError
+from bumpstop.io.case.tables.structure import StructureTables
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
 
-__all__ = ["require_one_source"]
+__all__ = ["SOURCES", "require_one_source"]
 
 _BESIDE = {
+    "nodes": (*StructureTables.model_fields, "basis"),
     "matrices": ("supports", "basis"),
     "modes": ("basis",),
+    "parts": ("components", "materials", "sections", "supports", "joints", "basis"),
 }
-"""Which tables go with a source; all of a structure's with ``nodes``."""
+"""Which tables go with a source."""
+
+SOURCES = tuple(_BESIDE)
+"""What modes can come from."""
 
 
 def require_one_source(case: CaseFile, tables: Sequence[str]) -> None:
@@ -34,14 +40,14 @@ def require_one_source(case: CaseFile, tables: Sequence[str]) -> None:
     InputError
         If there is no source, or more than one, or a table beside it that does not go with it.
     """
-    sources = [source for source in ("nodes", *_BESIDE) if getattr(case, source)]
+    sources = [source for source in _BESIDE if getattr(case, source)]
     if not sources:
-        hint = "name points there, or take [matrices] or [modes] from files"
+        hint = "name points there, or place [parts], or take [matrices] or [modes] from files"
         raise InputError("is missing", key="nodes", hint=hint)
     if len(sources) > 1:
         names = " and ".join(f"[{source}]" for source in sources)
         raise InputError(f"{names} exclude each other", key=sources[1], hint="keep one of them")
     source = sources[0]
     for table in tables:
-        if source in _BESIDE and table not in (source, *_BESIDE[source]) and getattr(case, table):
+        if table not in (source, *_BESIDE[source]) and getattr(case, table):
             raise InputError(f"does not go with [{source}]", key=table, hint="leave it out")

@@ -11,6 +11,7 @@ from bumpstop.io.units import Dimension, read_quantity
 
 __all__ = [
     "Acceleration3",
+    "Angle",
     "AngularRate3",
     "DampingConstant",
     "Density",
@@ -43,6 +44,7 @@ _MASS = Dimension("a mass", "kg", "300 g")
 _STIFFNESS = Dimension("a stiffness", "N/m", "18 kN/m")
 _DAMPING = Dimension("a damping constant", "N*s/m", "20 N*s/m")
 _ACCELERATION = Dimension("an acceleration", "m/s^2", "386 in/s^2")
+_ANGLE = Dimension("an angle", "rad", "90 deg")
 _ANGULAR_RATE = Dimension("an angular rate", "rad/s", "30 deg/s")
 _TIME = Dimension("a time", "s", "20 ms")
 _FORCE = Dimension("a force", "N", "5 kN")
@@ -150,6 +152,7 @@ def _read_written_list(value: object) -> list[float | str]:
 
 
 Length = Annotated[float, _quantity(_LENGTH)]
+Angle = Annotated[float, _quantity(_ANGLE)]
 PositiveLength = Annotated[float, _quantity(_LENGTH, above=0)]
 Pressure = Annotated[float, _quantity(_PRESSURE, above=0)]
 Density = Annotated[float, _quantity(_DENSITY, above=0)]

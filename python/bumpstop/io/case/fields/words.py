@@ -13,6 +13,7 @@ from bumpstop.structure.dofs import DOFS
 
 __all__ = [
     "BeamEnds",
+    "BeamName",
     "Dofs",
     "LinkedNodes",
     "Name",
@@ -28,6 +29,10 @@ __all__ = [
 _NAME = r"[\w-]+"
 
 
+_PATH = rf"{_NAME}(\.{_NAME})*"
+"""A name after those of the parts that it belongs to."""
+
+
 def _read_text(value: object) -> str:
     if not isinstance(value, str):
         raise InputError("must be a text in quotes", value=value)
@@ -39,6 +44,14 @@ def _read_name(value: object) -> str:
     if not isinstance(value, str) or not re.fullmatch(_NAME, value):
         hint = "letters, digits, '_' and '-' make a name"
         raise InputError("must be a name", value=value, hint=hint)
+    return value
+
+
+def _read_beam(value: object) -> str:
+    """Return the name of a beam, or of one in a part."""
+    if not isinstance(value, str) or not re.fullmatch(_PATH, value):
+        hint = "a beam is called like 'AB', one of a part like 'left.AB'"
+        raise InputError("must be the name of a beam", value=value, hint=hint)
     return value
 
 
@@ -93,6 +106,9 @@ _STRINGS = {"type": "array", "items": _STRING, "minItems": 1}
 
 Text = Annotated[str, Plain(_read_text, _STRING)]
 Name = Annotated[str, Plain(_read_name, {**_STRING, "pattern": f"^{_NAME}$"})]
+BeamName = Annotated[
+    str, Plain(_read_beam, {**_STRING, "pattern": f"^{_PATH}$", "examples": ["AB", "left.AB"]})
+]
 NodeName = Annotated[str, Plain(_read_node_name, {**_STRING, "pattern": f"^{_NAME}$"})]
 Node = Annotated[str, Plain(read_node, {**_STRING, "examples": ["B", "AB.3", "AB@0.462 m"]})]
 Nodes = Annotated[list[str], Plain(_read_nodes, {"anyOf": [{"const": "all"}, _STRINGS]})]

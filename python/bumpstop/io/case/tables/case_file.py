@@ -6,12 +6,15 @@ from pydantic import Field
 
 from bumpstop.io.case.fields.words import Name, Text
 from bumpstop.io.case.tables.basis import BasisTable
+from bumpstop.io.case.tables.components import ComponentTable
 from bumpstop.io.case.tables.gauges import GaugeTable
 from bumpstop.io.case.tables.initial import InitialTable
+from bumpstop.io.case.tables.joints import JointTable
 from bumpstop.io.case.tables.loads import LoadTable
 from bumpstop.io.case.tables.matrices import MatricesTable
 from bumpstop.io.case.tables.modes import ModesTable
 from bumpstop.io.case.tables.outputs import OutputTable
+from bumpstop.io.case.tables.parts import PartTable
 from bumpstop.io.case.tables.references import ReferenceTable
 from bumpstop.io.case.tables.run import RunTable
 from bumpstop.io.case.tables.stops import StopTable
@@ -32,6 +35,13 @@ class CaseFile(StructureTables):
         default=None, description="Instead of nodes: matrices from files"
     )
     modes: ModesTable | None = Field(default=None, description="Instead of nodes: modes of a file")
+    components: dict[Name, ComponentTable] = Field(
+        default={}, description="Structures to be placed as parts, by name"
+    )
+    parts: dict[Name, PartTable] = Field(
+        default={}, description="Instead of nodes: components in their places, by name"
+    )
+    joints: list[JointTable] = Field(default=[], description="Where parts hang together")
     basis: BasisTable = Field(description="Modes of the structure")
     stops: dict[Name, StopTable] = Field(default={}, description="Stops, by name")
     loads: dict[Name, LoadTable] = Field(default={}, description="Loads, by name")
