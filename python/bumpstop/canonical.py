@@ -55,12 +55,11 @@ def canonical_form(problem: Problem) -> CanonicalForm:
 
 
 def _refuse_coupling(basis: ModalBasis) -> None:
-    """Raise where velocities or skew forces couple the modes: the core cannot do that yet."""
+    """Raise where more than the laws couples the modes: the core cannot integrate that yet."""
     for what in ("gyroscopic", "circulatory"):
         if getattr(basis, what) is not None:
             hint = "leave out what spins, and bearings of unequal cross stiffness"
             raise InputError(f"{what} forces couple the modes", key="basis", hint=hint)
-    matrix = basis.damping_matrix
-    if matrix is not None and np.count_nonzero(matrix - np.diag(matrix.diagonal())):
+    if basis.couples:
         hint = 'make the basis with damping_coupling="diagonal", which keeps their own damping'
         raise InputError("damping couples the modes", key="basis", hint=hint)

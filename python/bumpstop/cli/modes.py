@@ -6,12 +6,18 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from bumpstop.arguments import FloatArray
 from bumpstop.cli.console import Table, print_json, print_line, print_table
 from bumpstop.io.case import load_case
 from bumpstop.modal.basis import ModalBasis, mode_labels
 from bumpstop.modal.masses import generalised_mass, participation
+from bumpstop.modal.oscillation import ComplexModes, complex_modes
+from bumpstop.modal.spin import angular_momentum
 
 __all__ = ["modes_command"]
+
+PLANAR = 0.005
+"""A motion that turns less than this swings to and fro."""
 
 
 def modes_command(path: Path, *, json: bool) -> int:
@@ -32,6 +38,9 @@ def modes_command(path: Path, *, json: bool) -> int:
         print_line()
         print_line(", ".join(name for name in bases if bases[name] is basis), style="bold cyan")
         print_table(_table(basis))
+        if basis.couples:
+            print_line("  with the damping and the gyroscopic forces that couple these modes:")
+            print_table(_complex_table(basis))
         for remark in _remarks(basis):
             print_line(f"  {remark}")
     return 0
@@ -55,6 +64,14 @@ def _record(basis: ModalBasis) -> dict[str, Any]:
         totals = zip(part.directions, part.total.tolist(), strict=True)
         masses = zip(part.directions, part.effective_mass.T.tolist(), strict=True)
         record |= {"total_mass": dict(totals), "effective_mass": dict(masses)}
+    if basis.couples:
+        modes = complex_modes(basis)
+        whirl = _whirl(basis, modes)
+        record["complex_modes"] = {
+            "frequencies": modes.frequencies.tolist(),
+            "damping": modes.damping_ratio.tolist(),
+            "whirl": None if whirl is None else whirl.tolist(),
+        }
     return record
 
 
@@ -79,6 +96,35 @@ def _table(basis: ModalBasis) -> Table:
     if basis.has_masses:
         rows.append(("sum", *(column.total for column in columns[1:])))
     return Table(headers=[column.header for column in columns], rows=rows)
+
+
+def _complex_table(basis: ModalBasis) -> Table:
+    """Return a row for each motion that the coupled modes make."""
+    modes = complex_modes(basis)
+    whirl = _whirl(basis, modes)
+    columns = [
+        _Column("number", [str(number) for number in range(1, len(modes.eigenvalues) + 1)]),
+        _Column("frequency [Hz]", [f"{value:.6g}" for value in modes.frequencies]),
+        _Column("damping [%]", [f"{100 * value:.4g}" for value in modes.damping_ratio]),
+    ]
+    if whirl is not None:
+        columns.append(_Column("whirl", [_turning(value) for value in whirl]))
+    rows = list(zip(*(column.cells for column in columns), strict=True))
+    return Table(headers=[column.header for column in columns], rows=rows)
+
+
+def _whirl(basis: ModalBasis, modes: ComplexModes) -> FloatArray | None:
+    """Return how the motions turn about the axis of the spin, where something spins."""
+    if basis.model is None or basis.gyroscopic is None:
+        return None
+    momentum = angular_momentum(basis.model)
+    return modes.whirl(momentum.tolist()) if momentum.any() else None
+
+
+def _turning(whirl: float) -> str:
+    if abs(whirl) < PLANAR:
+        return "-"
+    return f"{'forward' if whirl > 0.0 else 'backward'} {abs(whirl):.2f}"
 
 
 class _Column(NamedTuple):

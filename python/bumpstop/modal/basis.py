@@ -333,6 +333,13 @@ class ModalBasis:
         return self.model is not None and self.mass_rows is not None
 
     @property
+    def couples(self) -> bool:
+        """Whether damping, gyroscopic or circulatory forces couple the canonical vectors."""
+        matrix = self.damping_matrix
+        damped = matrix is not None and np.any(matrix - np.diag(matrix.diagonal()))
+        return bool(damped or self.gyroscopic is not None or self.circulatory is not None)
+
+    @property
     def remarks(self) -> tuple[str, ...]:
         """What a user should know of this basis, a sentence each."""
         return (*self._unstable, *self.dropped, *self.neglected)
