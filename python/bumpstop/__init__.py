@@ -13,6 +13,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from bumpstop.errors import BumpstopError, ComputationError, InputError
     from bumpstop.io.case import Case, load_case
+    from bumpstop.io.matrices import read_matrices, write_matrices
+    from bumpstop.io.meshes import read_mesh
+    from bumpstop.io.modes import read_modes
     from bumpstop.laws.obstacle import Plane
     from bumpstop.laws.stop import Stop
     from bumpstop.loads.force import NodalForce
@@ -103,7 +106,11 @@ __all__ = [
     "generalised_mass",
     "load_case",
     "participation",
+    "read_matrices",
+    "read_mesh",
+    "read_modes",
     "simulate",
+    "write_matrices",
 ]
 
 _HOME = {
@@ -155,7 +162,11 @@ _HOME = {
     "generalised_mass": "modal.masses",
     "load_case": "io.case",
     "participation": "modal.masses",
+    "read_matrices": "io.matrices",
+    "read_mesh": "io.meshes",
+    "read_modes": "io.modes",
     "simulate": "simulate",
+    "write_matrices": "io.matrices",
 }
 """Where each public name lives."""
 
