@@ -70,12 +70,12 @@ def not_negative(key: str, value: object) -> float:
     return number
 
 
-def count(key: str, value: object) -> int:
-    """Return a whole number that is one or above."""
+def count(key: str, value: object, least: int = 1) -> int:
+    """Return a whole number that is ``least`` or above."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise InputError("must be a whole number", key=key, value=value)
-    if value < 1:
-        raise InputError("must be 1 or more", key=key, value=value)
+    if value < least:
+        raise InputError(f"must be {least} or more", key=key, value=value)
     return int(value)
 
 

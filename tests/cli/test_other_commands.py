@@ -19,8 +19,9 @@ def test_modes(capsys: pytest.CaptureFixture[str]) -> None:
     # The rigid rotation of a rod takes three quarters of its mass, its generalised mass is a third.
     assert ["1", "0", "1", "0.1228", "0.00", "74.99", "0.00"] in lines
     assert ["2", "85.4068", "1"] in [line[:3] for line in lines]
-    assert lines[-2][0] == "sum"
+    assert lines[-3][0] == "sum"
     assert " ".join(lines[-1]).startswith("10 modes below ")
+    assert ["1", "rigid", "mode:", "rotation", "about", "z", "through", "A"] in lines
 
 
 def test_modes_as_json(capsys: pytest.CaptureFixture[str]) -> None:
@@ -30,6 +31,7 @@ def test_modes_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert record["case"] == "sdnl32"
     assert record["frequencies"] == basis.frequencies.tolist()
     assert record["damping"] == [0.01] * 10
+    assert record["rigid_modes"] == ["rotation about z through A"]
     assert record["variants"]["stiff"]["frequencies"] == record["frequencies"]
     mass = 2400 * 0.014**2 * 0.783
     assert record["total_mass"]["dy"] == pytest.approx(mass)

@@ -138,3 +138,23 @@ def test_bad_relations_are_refused(refused: Refused, wrong: str, message: str) -
 )
 def test_bad_links_are_refused(refused: Refused, wrong: str, message: str) -> None:
     assert message in refused(ARM.replace('nodes = ["B", "P"]', wrong))
+
+
+def test_rigid_modes_are_announced_in_the_basis(load: Load, refused: Refused) -> None:
+    free = SEESAW.replace("modes = 1", "modes = 1\nrigid_modes = 1")
+    assert load(free).problems["base"].basis.omega2[0] == 0.0
+    none = SEESAW.replace("modes = 1", "modes = 1\nrigid_modes = 0")
+    assert refused(none) == (
+        "basis.rigid_modes: 1 motion is free of strain: rotation about z through (0, 0, 0) (got 0)"
+    )
+    assert "basis.rigid_modes: must be 0 or more" in refused(none.replace("s = 0", "s = -1"))
+
+
+def test_a_mechanism_is_refused_at_its_key(refused: Refused) -> None:
+    """A ball joint in the arm lets its mass swing."""
+    ball = ARM.replace('nodes = ["B", "P"]', 'nodes = ["B", "C"]\ndofs = ["dx", "dy", "dz"]')
+    ball = ball.replace("[materials", "C = [1, 0, 0]\n[materials", 1)
+    ball += '[links.rod]\nnodes = ["C", "P"]\n'
+    message = refused(ball)
+    assert "basis.rigid_modes: a mechanism: rotation about z through B of P, C; " in message
+    assert message.endswith("or say rigid_modes = 2 if it is meant to move")

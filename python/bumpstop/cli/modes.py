@@ -41,7 +41,8 @@ def modes_command(path: Path, *, json: bool) -> int:
         if basis.couples:
             print_line("  with the damping and the gyroscopic forces that couple these modes:")
             print_table(_complex_table(basis))
-        for remark in _remarks(basis):
+        rigid = [_rigid_modes(basis.rigid_modes)] if basis.rigid_modes else []
+        for remark in [*rigid, *_remarks(basis)]:
             print_line(f"  {remark}")
     return 0
 
@@ -51,10 +52,21 @@ def _remarks(basis: ModalBasis) -> list[str]:
     return [*proof, *basis.remarks]
 
 
+def _rigid_modes(motions: Sequence[str]) -> str:
+    """Return a line that names the motions which strain nothing.
+
+    >>> _rigid_modes(["rotation about z through A"])
+    '1 rigid mode: rotation about z through A'
+    """
+    number = "1 rigid mode" if len(motions) == 1 else f"{len(motions)} rigid modes"
+    return f"{number}: {'; '.join(motions)}"
+
+
 def _record(basis: ModalBasis) -> dict[str, Any]:
     record: dict[str, Any] = {
         "frequencies": basis.frequencies.tolist(),
         "damping": basis.damping_ratio.tolist(),
+        "rigid_modes": list(basis.rigid_modes),
         "labels": list(basis.canonical_labels),
         "generalised_mass": generalised_mass(basis).tolist(),
         "remarks": _remarks(basis),

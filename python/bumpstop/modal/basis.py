@@ -18,9 +18,11 @@ from bumpstop.modal.eigen import model_modes
 from bumpstop.modal.given import given_labels, given_vectors, modal_masses
 from bumpstop.modal.places import Place
 from bumpstop.modal.projected import projected
+from bumpstop.modal.rigid_modes import require_rigid_modes
 from bumpstop.modal.selection import ModeSelection, mode_selection
 from bumpstop.modal.vectors import DEPENDENT, canonical_vectors
 from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.free_motions import free_motions
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.model import LinearModel, StrainModel
 from bumpstop.structure.structure import Structure
@@ -99,6 +101,7 @@ class ModalBasis:
         constraint_shapes: Sequence[Place] = (),
         base_shapes: Sequence[str] = (),
         static_damping: float | None = None,
+        rigid_modes: int | None = None,
     ) -> ModalBasis:
         """Compute modes of a structure, and static shapes as their companions.
 
@@ -128,13 +131,17 @@ class ModalBasis:
         static_damping
             Ratio of critical damping of the static shapes, at the frequency that each has in
             the canonical form; that of the modes where left out.
+        rigid_modes
+            How many motions strain nothing, all of them, also beyond the modes asked for. Where
+            left out, connected pieces may move as a whole, but mechanisms are refused.
 
         Raises
         ------
         InputError
             If a value cannot be used, the structure has fewer free dofs than modes, or a place
-            is unknown or held.
+            is unknown or held; or if other motions strain nothing than ``rigid_modes`` says.
         """
+        require_rigid_modes(structure, rigid_modes)
         omega2, shapes, sturm = model_modes(structure, mode_selection(modes))
         beside = companions(
             structure,
@@ -343,6 +350,17 @@ class ModalBasis:
     def remarks(self) -> tuple[str, ...]:
         """What a user should know of this basis, a sentence each."""
         return (*self._unstable, *self.dropped, *self.neglected)
+
+    @cached_property
+    def rigid_modes(self) -> tuple[str, ...]:
+        """What the motions of the model are that strain nothing, a few words each.
+
+        Also where the basis has fewer modes than there are such motions; nothing is known of
+        modes from elsewhere.
+        """
+        if self.model is None:
+            return ()
+        return tuple(motion.text for motion in free_motions(self.model))
 
     def row(self, node: str, dof: str) -> FloatArray:
         """Return how much each mode moves a dof, (N,): u = row . q.

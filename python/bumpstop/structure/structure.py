@@ -157,7 +157,7 @@ class Structure:
 
     def rigid_shapes(self) -> FloatArray:
         """Return all motions that strain nothing, by the free dofs, (free dofs, motions)."""
-        return rigid_fields(self.mesh, self._assembly.parts, self._mobility.allowed)[self.free]
+        return self._rigid_fields[self.free]
 
     def has_inertia(self, form: LinearForm) -> bool:
         """Tell whether a force along a form accelerates masses alone.
@@ -233,6 +233,10 @@ class Structure:
         motions = rigid_motions(self.mesh.positions, np.array(about, dtype=float))
         field: FloatArray = motions @ np.array([*translation, *rotation], dtype=float)
         return field
+
+    @cached_property
+    def _rigid_fields(self) -> FloatArray:
+        return rigid_fields(self.mesh, self._assembly.parts, self._mobility.allowed)
 
     @property
     def _freedom(self) -> Freedom:

@@ -35,6 +35,7 @@ def built_basis(case: CaseFile, folder: Path) -> ModalBasis:
             constraint_shapes=table.constraint_shapes,
             base_shapes=table.base_shapes,
             static_damping=table.static_damping,
+            rigid_modes=table.rigid_modes,
         )
 
 

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from bumpstop.io.case.fields.counts import CountFromZero
 from bumpstop.io.case.fields.damping import ModalDamping
 from bumpstop.io.case.fields.quantities import Ratio
 from bumpstop.io.case.fields.shapes import Modes, Places, PlacesOrStops
@@ -47,4 +48,9 @@ class BasisTable(Table):
     static_damping: Ratio | None = Field(
         default=None,
         description="Damping ratio of these static shapes; as the modes where left out",
+    )
+    rigid_modes: CountFromZero | None = Field(
+        default=None,
+        description="How many motions strain nothing; where left out, pieces that hang "
+        "together may move as a whole, but mechanisms are refused",
     )

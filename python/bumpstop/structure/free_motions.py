@@ -1,0 +1,234 @@
+"""What the motions are that strain nothing: in words, and whether they are mechanisms.
+
+Each connected piece of a model may move as a whole: that is a rigid motion, named by its
+direction or axis. What else strains nothing moves parts of a piece against each other: a
+mechanism, named by what turns about what, or by the dofs that move most.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray
+from bumpstop.errors import InputError
+from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.echelon import independent_rows, null_space
+from bumpstop.structure.frame import rigid_motions
+from bumpstop.structure.graph import components
+from bumpstop.structure.model import LinearModel
+from bumpstop.structure.rigid_words import direction_words, names_words, rigid_words
+from bumpstop.structure.sparse import IndexArray
+
+__all__ = ["FreeMotion", "free_motions"]
+
+_SAME = 1e-7
+"""Motions that differ by less, relative to their size, are the same."""
+
+
+@dataclass(frozen=True)
+class FreeMotion:
+    """A motion that strains nothing.
+
+    Parameters
+    ----------
+    text
+        What moves and how: ``"rotation about z through A"``.
+    is_mechanism
+        Whether it moves parts of a connected piece against each other.
+    """
+
+    text: str
+    is_mechanism: bool
+
+
+def free_motions(model: LinearModel) -> list[FreeMotion]:
+    """Return the motions of a model that strain nothing, rigid motions of whole pieces first.
+
+    Where the positions of nodes are not known, motions are named by what moves most, and none
+    is called a mechanism.
+
+    Examples
+    --------
+    >>> from bumpstop import Beam, Material, Rectangle, Structure, Support
+    >>> steel = Material(young_modulus=210e9, poisson_ratio=0.3, density=7800.0)
+    >>> beam = Beam("AB", nodes=("A", "B"), elements=4, material=steel,
+    ...     section=Rectangle(height=0.02, width=0.02))
+    >>> hinged = Structure(nodes={"A": (0, 0, 0), "B": (1, 0, 0)}, beams=[beam],
+    ...     supports=[Support(nodes="A", fixed=("dx", "dy", "dz", "drx", "dry"))])
+    >>> free_motions(hinged)
+    [FreeMotion(text='rotation about z through A', is_mechanism=False)]
+    """
+    fields = model.expansion @ model.rigid_shapes()
+    if fields.shape[1] == 0:
+        return []
+    ground = _Ground.of(model)
+    if ground is None:
+        return [FreeMotion(_led_by(model.dofs, field), is_mechanism=False) for field in fields.T]
+    pieces = [rows for rows in ground.pieces(model) if fields[rows].any()]
+    found = [
+        motion
+        for rows in pieces
+        for motion in _of_piece(ground, rows, fields[rows], named=len(pieces) > 1)
+    ]
+    return sorted(found, key=lambda motion: motion.is_mechanism)
+
+
+@dataclass(frozen=True, eq=False)
+class _Ground:
+    """Where the dofs of a model are.
+
+    Parameters
+    ----------
+    names
+        Names of the nodes.
+    positions
+        Where they are in m, (nodes, 3).
+    node, dof
+        Of each row, the numbers of its node and of its place in ``DOFS``.
+    """
+
+    names: tuple[str, ...]
+    positions: FloatArray
+    node: IndexArray
+    dof: IndexArray
+
+    @classmethod
+    def of(cls, model: LinearModel) -> _Ground | None:
+        """Return where the dofs of a model are; None where that is not known of all."""
+        names = tuple(dict.fromkeys(node for node, _ in model.dofs))
+        numbers = {name: number for number, name in enumerate(names)}
+        try:
+            positions = np.array([model.position(name) for name in names])
+            dof = np.array([DOFS.index(dof) for _, dof in model.dofs])
+        except (InputError, ValueError):
+            return None
+        return cls(names, positions, np.array([numbers[node] for node, _ in model.dofs]), dof)
+
+    @property
+    def size(self) -> float:
+        """A length in m that is typical of the model."""
+        return float(np.ptp(self.positions, axis=0).max()) or 1.0
+
+    def pieces(self, model: LinearModel) -> list[IndexArray]:
+        """Return the rows that can move of each piece that hangs together."""
+        stiffness, expansion = model.stiffness, model.expansion
+        same = np.flatnonzero(np.diff(expansion.columns) == 0)
+        of_node = components(
+            len(self.names),
+            self.node[np.concatenate([stiffness.rows, expansion.rows[same]])],
+            self.node[np.concatenate([stiffness.columns, expansion.rows[same + 1]])],
+        )
+        piece = np.zeros(len(self.names), dtype=np.intp)
+        for number, nodes in enumerate(of_node):
+            piece[nodes] = number
+        moving = np.zeros(len(self.node), dtype=bool)
+        moving[expansion.rows] = True
+        rows = np.flatnonzero(moving)
+        return [rows[piece[self.node[rows]] == number] for number in range(len(of_node))]
+
+    def scaled(self, rows: IndexArray, fields: FloatArray) -> FloatArray:
+        """Return fields with rotations as the displacements that they make at a distance."""
+        scale = np.where(self.dof[rows] < 3, 1.0, self.size)
+        return fields * scale[:, np.newaxis]
+
+    def rigid(self, rows: IndexArray) -> FloatArray:
+        """Return the six rigid motions of some rows, scaled; about the origin, (rows, 6)."""
+        nodes = self.node[rows]
+        motions = rigid_motions(self.positions[nodes] / self.size, np.zeros(3))
+        own: FloatArray = motions[6 * np.arange(len(rows)) + self.dof[rows]]
+        return own
+
+    def words(self, motion: FloatArray) -> str:
+        """Return what one of these, (6,), is in words."""
+        return rigid_words(motion[:3], motion[3:] / self.size, self.names, self.positions)
+
+
+def _of_piece(
+    ground: _Ground, rows: IndexArray, fields: FloatArray, *, named: bool
+) -> list[FreeMotion]:
+    """Return the motions of one piece, given on its rows."""
+    fields = ground.scaled(rows, fields)
+    fields = fields[:, np.abs(fields).max(axis=0) > 0.0]
+    rigid = ground.rigid(rows)
+    whole = _common(rigid, fields)
+    names = f" of {_names(ground, rows)}" if named else ""
+    motions = [
+        FreeMotion(_whole_words(ground, motion, whole) + names, is_mechanism=False)
+        for motion in whole.T
+    ]
+    for field in _others(fields, rigid @ whole).T:
+        motions.append(FreeMotion(_mechanism_words(ground, rows, field), is_mechanism=True))
+    return motions
+
+
+def _common(rigid: FloatArray, fields: FloatArray) -> FloatArray:
+    """Return independent combinations of rigid motions that are among the fields, (6, n)."""
+    directions = _directions(fields)
+    common = null_space(rigid - directions @ (directions.T @ rigid))
+    moving = np.flatnonzero(np.abs(rigid @ common).max(axis=0) > _SAME)
+    chosen = independent_rows((rigid @ common[:, moving]).T)
+    return common[:, moving[chosen]]
+
+
+def _others(fields: FloatArray, known: FloatArray) -> FloatArray:
+    """Return fields that are no combination of the known ones; those that move least first."""
+    moved = np.abs(fields) > _SAME * np.abs(fields).max(axis=0)
+    others = []
+    for field in fields[:, np.argsort(moved.sum(axis=0), kind="stable")].T:
+        directions = _directions(known)
+        left = field - directions @ (directions.T @ field)
+        if np.linalg.norm(left) > _SAME * np.linalg.norm(field):
+            others.append(field)
+            known = np.column_stack([known, field])
+    return np.array(others).reshape(-1, len(fields)).T
+
+
+def _whole_words(ground: _Ground, motion: FloatArray, whole: FloatArray) -> str:
+    """Return what a motion of a whole piece is; its axis has no place if all shifts are free."""
+    turn = motion[3:]
+    if turn.any():
+        shifts = whole[:3, ~whole[3:].any(axis=0)]
+        across = shifts - np.outer(turn, turn @ shifts) / (turn @ turn)
+        if np.linalg.matrix_rank(across, tol=_SAME) == 2:
+            return f"rotation about {direction_words(turn)}"
+    return ground.words(motion)
+
+
+def _mechanism_words(ground: _Ground, rows: IndexArray, field: FloatArray) -> str:
+    """Return what a mechanism is: a rigid motion of some nodes, or where it moves most."""
+    moved = np.unique(ground.node[rows[np.abs(field) > _SAME * np.abs(field).max()]])
+    inside = np.isin(ground.node[rows], moved)
+    rigid = ground.rigid(rows[inside])
+    for free in (3, 6):  # a translation, if that says it
+        motion = np.zeros(6)
+        motion[:free] = np.linalg.lstsq(rigid[:, :free], field[inside], rcond=_SAME)[0]
+        if np.abs(rigid @ motion - field[inside]).max() <= _SAME * np.abs(field).max():
+            motion[np.abs(motion) <= _SAME * np.abs(motion).max()] = 0.0
+            return f"{ground.words(motion)} of {_names(ground, rows[inside])}"
+    dofs = [(ground.names[ground.node[row]], DOFS[ground.dof[row]]) for row in rows]
+    return _led_by(dofs, field)
+
+
+def _led_by(dofs: Sequence[Dof], field: FloatArray) -> str:
+    """Return which dofs move most."""
+    sizes = np.round(np.abs(field) / np.abs(field).max(), 7)  # so that rounding orders nothing
+    largest = np.argsort(-sizes, kind="stable")[:3]
+    leading = [".".join(dofs[row]) for row in largest if sizes[row] > 0.0]
+    more = np.count_nonzero(sizes) - len(leading)
+    return f"motion of {', '.join(leading)}" + (f" and {more} more" if more else "")
+
+
+def _names(ground: _Ground, rows: IndexArray) -> str:
+    return names_words([ground.names[node] for node in np.unique(ground.node[rows])])
+
+
+def _directions(fields: FloatArray) -> FloatArray:
+    """Return orthonormal vectors that span fields."""
+    directions, sizes, _ = np.linalg.svd(
+        fields / np.linalg.norm(fields, axis=0), full_matrices=False
+    )
+    kept: FloatArray = directions[:, sizes > _SAME * sizes.max(initial=0.0)]
+    return kept
