@@ -1,10 +1,13 @@
 """``bumpstop modes``, ``verify``, ``report`` and ``schema``."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import bumpstop as bs
 from bumpstop.cli import main
 from bumpstop.io.case import load_case
 
@@ -52,6 +55,34 @@ def test_modes_with_static_shapes(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert lines[8][-1] == lines[9][-1] == "combination"
     dropped = "static shape of B.dy is left out: it depends on those before it"
     assert " ".join(lines[-1]) == dropped
+
+
+def test_modes_that_damping_and_spin_couple(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    skew = np.zeros((4, 4))
+    skew[2, 3], skew[3, 2] = 2.0, -2.0
+    model = bs.Matrices(
+        stiffness=np.diag([50.0, 50.0, 8.0, 8.0]),
+        mass=np.diag([2.0, 2.0, 0.5, 0.5]),
+        gyroscopic=skew,
+        dofs=[("P", "dy"), ("P", "dz"), ("P", "dry"), ("P", "drz")],
+        positions={"P": (0, 0, 0)},
+    )
+    basis = bs.ModalBasis.from_structure(model, modes=4, damping=0.01)
+    problem = bs.Problem(basis, duration=1.0)
+    case = replace(load_case(SDNL32), problems={"base": problem})
+    monkeypatch.setattr("bumpstop.cli.modes.load_case", lambda _path: case)
+    assert main(["modes", "rotor.toml"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    start = next(number for number, line in enumerate(lines) if "that couple these modes" in line)
+    whirls = [line.split()[3:] for line in lines[start + 2 : start + 6]]
+    # A disc on springs: its two tilts part, its translations do not.
+    assert whirls == [["backward", "1.00"], ["-"], ["-"], ["forward", "1.00"]]
+    assert main(["modes", "rotor.toml", "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)["complex_modes"]
+    roots = np.sqrt(4.0 + 16.0) + np.array([-2.0, 2.0])
+    assert record["frequencies"][::3] == pytest.approx(roots / (2 * np.pi), rel=1e-3)
 
 
 def test_modes_of_variants_with_other_structures(

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
 import bumpstop as bs
@@ -133,6 +134,30 @@ def test_modes(soft: bs.Response) -> None:
     assert (rigid["frequency"], rigid["damping"]) == ("rigid", "–")
     assert second["frequency"].startswith("85.40")
     assert (second["damping"], second["title"]) == ("1.00 %", "Mode 2: 85.407 Hz")
+
+
+def test_static_shapes_are_called_by_their_names(soft: bs.Response) -> None:
+    structure = soft.problem.basis.structure
+    assert structure is not None
+    places = [("B", "dy"), ("B", "drz"), ("A", "drz")]
+    one = bs.ModalBasis.from_structure(structure, modes=4, static_shapes=places[:1])
+    assert tables.modes(one)[4]["title"].startswith("Static shape of B.dy: ")
+    assert dict(model_rows(bs.Problem(one, duration=1.0)))["Basis"] == [
+        "4 modes, 1 of them rigid, and 1 static shape, up to 1231.9 Hz, undamped"
+    ]
+    three = bs.ModalBasis.from_structure(structure, modes=4, static_shapes=places)
+    assert tables.modes(three)[6]["title"].startswith("Mode 7: ")
+
+
+def test_an_unstable_mode_has_no_frequency() -> None:
+    basis = bs.ModalBasis(
+        omega2=np.array([-4.0]),
+        damping_ratio=np.zeros(1),
+        dofs=(("P", "dx"),),
+        shapes=np.ones((1, 1)),
+    )
+    (row,) = tables.modes(basis)
+    assert row == {"frequency": "unstable", "damping": "–", "title": "Mode 1: unstable"}
 
 
 def test_variants_tell_what_sets_them_apart(sdnl32: Run) -> None:

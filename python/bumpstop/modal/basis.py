@@ -27,7 +27,10 @@ from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.model import LinearModel, StrainModel
 from bumpstop.structure.structure import Structure
 
-__all__ = ["ModalBasis", "mode_labels"]
+__all__ = ["COMBINATION", "ModalBasis", "mode_labels"]
+
+COMBINATION = "combination"
+"""What a canonical vector is called that is made of several of the user's."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -314,7 +317,8 @@ class ModalBasis:
     def frequencies(self) -> FloatArray:
         """Natural frequencies in Hz, (N,).
 
-        That of an unstable mode is negative: it grows by e in 1 / (2 pi |frequency|) seconds.
+        That of an unstable mode is negative: left alone, it
+        grows e-fold in 1 / (2 pi f) seconds, f being its size.
         """
         frequencies: FloatArray = np.sign(self.omega2) * np.sqrt(np.abs(self.omega2))
         return frequencies / (2.0 * np.pi)
@@ -332,7 +336,7 @@ class ModalBasis:
         if self.coordinates is None:
             return self.labels
         alone = self.coordinates.alone()
-        return tuple("combination" if of is None else self.labels[of] for of in alone)
+        return tuple(COMBINATION if of is None else self.labels[of] for of in alone)
 
     @property
     def has_masses(self) -> bool:

@@ -107,9 +107,13 @@ def _basis(basis: ModalBasis) -> str:
     rigid = int(np.count_nonzero(basis.omega2 == 0.0))
     if rigid == count:
         return "1 rigid mode" if count == 1 else f"{count} rigid modes"
-    modes = f"{count} {'mode' if count == 1 else 'modes'}"
+    beside = sum(not label.startswith("mode ") for label in basis.labels)
+    plain = count - beside if beside < count else count
+    modes = f"{plain} {'mode' if plain == 1 else 'modes'}"
     if rigid:
         modes += f", {rigid} of them rigid"
+    if plain < count:
+        modes += f", and {beside} static {'shape' if beside == 1 else 'shapes'}"
     ratios = basis.damping_ratio
     low, high = float(np.min(ratios)), float(np.max(ratios))
     damping = _ratio(low) if low == high else f"{_ratio(low)} to {_ratio(high)}"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.modal.basis import COMBINATION
 from bumpstop.quantities import IMPACTS
 from bumpstop.report.published import deviation_told, tolerance_told, verdict, worst
 from bumpstop.report.scales import percent, power_of_ten, scale_for, significant, with_unit
@@ -182,21 +183,28 @@ def impacts(response: Response) -> dict[str, Any]:
 
 def modes(basis: ModalBasis) -> list[dict[str, str]]:
     """Return frequency in Hz and damping of each mode, and a title that tells it."""
+    told = zip(basis.frequencies.tolist(), basis.damping_ratio.tolist(), strict=True)
     rows = []
-    for number, (frequency, ratio) in enumerate(
-        zip(basis.frequencies, basis.damping_ratio, strict=True), start=1
-    ):
-        hertz = float(frequency)
-        if hertz == 0.0:
-            # A ratio of critical damping says nothing of a mode without stiffness.
-            frequency_told, damping, title = "rigid", "–", "rigid"
-        else:
-            frequency_told, damping = significant(hertz, 6), percent(float(ratio))
-            title = f"{significant(hertz, 5)} Hz"
+    for number, (hertz, ratio) in enumerate(told):
+        # A ratio of critical damping says nothing of a mode without stiffness.
+        frequency, damping = significant(hertz, 6), percent(ratio)
+        title = f"{significant(hertz, 5)} Hz"
+        if hertz <= 0.0:
+            frequency = title = "rigid" if hertz == 0.0 else "unstable"
+            damping = "–"
         rows.append(
-            {"frequency": frequency_told, "damping": damping, "title": f"Mode {number}: {title}"}
+            {
+                "frequency": frequency,
+                "damping": damping,
+                "title": f"{_mode_name(basis, number)}: {title}",
+            }
         )
     return rows
+
+
+def _mode_name(basis: ModalBasis, number: int) -> str:
+    label = basis.canonical_labels[number]
+    return f"{label[0].upper()}{label[1:]}" if label != COMBINATION else f"Mode {number + 1}"
 
 
 def _of_tolerance(check: Check) -> str:
