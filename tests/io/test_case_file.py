@@ -163,7 +163,7 @@ def test_overrides_reach_into_lists_and_add_tables(load: Load) -> None:
         ('[variants.x]\n"variants.x" = 1', "cannot be changed by a variant"),
         ('[variants.x]\n"references.0.times" = [1]', "cannot be changed by a variant"),
         ('[variants.x]\n"stops.floor.gpa" = 1', "unknown key (got 1); did you mean 'gap'?"),
-        ('[variants.x]\n"masses.ball.mass" = -1', "must be positive (got -1)"),
+        ('[variants.x]\n"masses.ball.mass" = -1', "must not be negative (got -1)"),
     ],
 )
 def test_overrides_that_lead_nowhere(

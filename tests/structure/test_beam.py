@@ -109,9 +109,9 @@ def test_axes_of_members_along_an_axis_are_exact(
 def test_matrices_along_x_are_those_of_the_element_to_the_bit(cantilever: Cantilever) -> None:
     structure = cantilever(elements=1)
     beam = structure.beams[0]
-    expected = prismatic.stiffness(1.0, beam.slice)
+    expected = prismatic.stiffness(1.0, beam.slice_at(0.0))
     np.testing.assert_array_equal(structure.stiffness.to_dense(), expected)
-    expected = prismatic.mass(1.0, beam.slice)
+    expected = prismatic.mass(1.0, beam.slice_at(0.0))
     np.testing.assert_array_equal(structure.mass.to_dense(), expected)
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from bumpstop.structure.material import Material
 from bumpstop.structure.mesh import Mesh
 from bumpstop.structure.sections.section import Section
 from bumpstop.structure.sparse import IndexArray
+
+if TYPE_CHECKING:
+    from bumpstop.structure.elements.varying import VaryingElement
 
 __all__ = ["MOST_ELEMENTS", "Beam"]
 
@@ -49,7 +53,10 @@ class Beam:
     material
         What it is made of.
     section
-        Its cross section, for instance a ``Rectangle``.
+        Its cross section, for instance a ``Rectangle``; at the first node, if it varies.
+    end_section
+        The section at the last node, of the same shape; in between, every dimension changes
+        linearly. Stiffness is still exact for loads at the nodes.
     theory
         ``"timoshenko"``: bending with shear strain and rotary inertia; ``"rayleigh"``: without
         shear strain; ``"euler_bernoulli"``: with neither; ``"bar"``: stretch alone.
@@ -78,6 +85,7 @@ class Beam:
     material: Material = field(kw_only=True)
     section: Section = field(kw_only=True)
     theory: str = field(default="timoshenko", kw_only=True)
+    end_section: Section | None = field(default=None, kw_only=True)
     roll: float = field(default=0.0, kw_only=True)
     mass: str = field(default="consistent", kw_only=True)
     added_mass: float = field(default=0.0, kw_only=True)
@@ -94,6 +102,8 @@ class Beam:
             raise InputError("must be a Material", key="material", value=self.material)
         if not isinstance(self.section, Section):
             raise InputError("must be a section", key="section", value=self.section)
+        if self.end_section is not None:
+            self._require_taper(self.end_section)
         object.__setattr__(self, "added_mass", not_negative("added_mass", self.added_mass))
         for key in ("roll", "tension", "spin"):
             object.__setattr__(self, key, finite(key, getattr(self, key)))
@@ -113,9 +123,29 @@ class Beam:
         return positions
 
     @property
-    def slice(self) -> Slice:
-        """What a slice of it resists and weighs."""
-        return THEORIES[self.theory].slice_of(self.material, self.section, self.added_mass)
+    def varies(self) -> bool:
+        """Whether it takes the element of varying section: tapered, or bent and twisted at once."""
+        bends = THEORIES[self.theory].bends
+        return bends and (self.end_section is not None or any(self.section.shear_center))
+
+    def section_at(self, part: float) -> Section:
+        """Return the section at a part of the length, from 0 to 1."""
+        if self.end_section is None:
+            return self.section
+        return self.section.between(self.end_section, part)
+
+    def slice_at(self, part: float) -> Slice:
+        """Return what a slice at a part of the length, from 0 to 1, resists and weighs."""
+        return THEORIES[self.theory].slice_of(self.material, self.section_at(part), self.added_mass)
+
+    def varying_element(self, mesh: Mesh, element: int) -> VaryingElement:
+        """Return one of its elements, counted from 0, as one of varying section."""
+        from bumpstop.structure.elements.varying import VaryingElement
+
+        return VaryingElement(
+            self._element_length(mesh),
+            lru_cache(None)(lambda xi: self.slice_at((element + xi) / self.elements)),
+        )
 
     def length(self, mesh: Mesh) -> float:
         """Return the length in m.
@@ -151,7 +181,11 @@ class Beam:
     def displacement_form(self, mesh: Mesh, at: float, dof: str) -> LinearForm:
         """Return a displacement or rotation along or about a global axis, ``at`` m along."""
         element, xi = self._locate(mesh, at)
-        functions = self._element.interpolation(xi, self._element_length(mesh), self.slice)
+        if self.varies:
+            functions = self.varying_element(mesh, element).interpolation(xi)
+        else:
+            length = self._element_length(mesh)
+            functions = self._element.interpolation(xi, length, self.slice_at(0.0))
         to_local = self._to_local(mesh)
         in_global = to_local[:6, :6].T @ functions @ to_local
         return LinearForm(self._element_dofs(mesh)[element], in_global[DOFS.index(dof)])
@@ -159,7 +193,11 @@ class Beam:
     def strain_form(self, mesh: Mesh, at: float, fibre: tuple[float, float]) -> LinearForm:
         """Return the axial strain of a fibre (y, z), ``at`` m along the beam."""
         element, xi = self._locate(mesh, at)
-        strain = self._element.axial_strain(xi, fibre, self._element_length(mesh), self.slice)
+        if self.varies:
+            strain = self.varying_element(mesh, element).axial_strain(xi, fibre)
+        else:
+            length = self._element_length(mesh)
+            strain = self._element.axial_strain(xi, fibre, length, self.slice_at(0.0))
         return LinearForm(self._element_dofs(mesh)[element], strain @ self._to_local(mesh))
 
     def position(self, mesh: Mesh, at: float) -> Vector:
@@ -176,10 +214,20 @@ class Beam:
             raise InputError(
                 "a beam that spins needs rotary inertia", key="theory", value=self.theory, hint=hint
             )
-        around = self.section.inertia_y, self.section.inertia_z, *self.section.shear_factors
-        if not math.isclose(around[0], around[1], rel_tol=1e-9) or around[2] != around[3]:
-            what = "a beam that spins must be as stiff about y as about z"
-            raise InputError(what, key="spin", value=self.spin, hint="take a circle or a tube")
+        for section in (self.section, self.end_section or self.section):
+            factor_y, factor_z = section.shear_factors
+            as_stiff = math.isclose(section.inertia_y, section.inertia_z, rel_tol=1e-9)
+            if not as_stiff or factor_y != factor_z or any(section.shear_center):
+                what = "a beam that spins must be as stiff about y as about z"
+                raise InputError(what, key="spin", value=self.spin, hint="take a circle or a tube")
+
+    def _require_taper(self, end_section: object) -> None:
+        if not isinstance(end_section, Section):
+            raise InputError("must be a section", key="end_section", value=end_section)
+        if not THEORIES[self.theory].bends:
+            what, hint = "a bar has the same section everywhere", "leave end_section out"
+            raise InputError(what, key="end_section", hint=hint)
+        self.section.between(end_section, 0.5)
 
     @property
     def _element(self) -> Element:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,9 @@ from bumpstop.structure.elements import THEORIES, Slice
 from bumpstop.structure.frame import local_axes, turned
 from bumpstop.structure.mesh import Mesh
 from bumpstop.structure.sparse import IndexArray
+
+if TYPE_CHECKING:
+    from bumpstop.structure.elements.varying import VaryingElement
 
 __all__ = ["beam_blocks"]
 
@@ -35,10 +39,15 @@ def beam_blocks(beams: Sequence[Beam], mesh: Mesh) -> list[Contribution]:
     alike: dict[tuple[object, ...], list[Beam]] = {}
     for beam in beams:
         kind = THEORIES[beam.theory].element, beam.mass, beam.tension != 0.0
-        alike.setdefault(kind, []).append(beam)
-    return [
+        if not beam.varies:
+            alike.setdefault(kind, []).append(beam)
+    plain = [
         PrismaticBeams(tuple(some), mesh) for group in alike.values() for some in _portions(group)
     ]
+    blocks = [*plain, *(VaryingBeam((beam,), mesh) for beam in beams if beam.varies)]
+    for block in blocks:
+        block.require_length()
+    return list(blocks)
 
 
 def _portions(beams: Sequence[Beam]) -> Iterator[list[Beam]]:
@@ -58,7 +67,7 @@ def _portions(beams: Sequence[Beam]) -> Iterator[list[Beam]]:
 class PrismaticBeams:
     """Beams of constant section, of the same element and mass matrix, all tight or all slack.
 
-    Contribution are computed when they are asked for, and not kept.
+    Matrices are computed when they are asked for, and not kept.
 
     Parameters
     ----------
@@ -81,6 +90,11 @@ class PrismaticBeams:
         left = np.where(place == 0, first[self._beam], inner - 1)
         right = np.where(place == self._elements[self._beam] - 1, last[self._beam], inner)
         return np.stack([left, right], axis=1)
+
+    def require_length(self) -> None:
+        """Raise InputError if a beam has no length."""
+        if not self._lengths.all():
+            raise self.beams[int(self._lengths.argmin())].without_length()
 
     def strains(self, mesh: Mesh) -> FloatArray | None:  # noqa: ARG002  # the beams know it
         """Return sums of dofs that each element resists, (elements, sums, 12).
@@ -124,7 +138,7 @@ class PrismaticBeams:
         with np.errstate(all="ignore"):
             matrices = turned(self._local(kind), self._axes, skew=kind == "gyroscopic")
         self._refuse_overflow(matrices)
-        return matrices[self._beam]
+        return matrices if len(matrices) == len(self._beam) else matrices[self._beam]
 
     def _local(self, kind: str) -> FloatArray:
         """Return the matrix of one element of each beam in local axes, (beams, 12, 12)."""
@@ -173,8 +187,6 @@ class PrismaticBeams:
         first, last = self._ends
         along = self.mesh.positions[last] - self.mesh.positions[first]
         lengths: FloatArray = np.hypot(np.hypot(along[:, 0], along[:, 1]), along[:, 2])
-        if not lengths.all():
-            raise self.beams[int(lengths.argmin())].without_length()
         return lengths
 
     @cached_property
@@ -194,19 +206,53 @@ class PrismaticBeams:
             key = (id(beam.material), id(beam.section), beam.theory, beam.added_mass)
             if key not in numbers:
                 numbers[key] = len(slices)
-                slices.append(beam.slice)
+                slices.append(beam.slice_at(0.0))
             kinds.append(numbers[key])
         return Slice(*np.array(slices).T[:, kinds])
 
     def _refuse_overflow(self, matrices: FloatArray) -> None:
         good = np.isfinite(matrices).all(axis=(1, 2))
         if not good.all():
-            beam = self.beams[int(good.argmin())]
+            beam = self.beams[min(int(good.argmin()), len(self.beams) - 1)]
             raise InputError(
                 "its numbers are too large or too small to compute with",
                 key=f"beams.{beam.name}",
                 hint="check the units of length, section and material",
             )
+
+
+@dataclass(frozen=True, eq=False)
+class VaryingBeam(PrismaticBeams):
+    """One beam of varying section, or with its shear centre off the centroid."""
+
+    def _local(self, kind: str) -> FloatArray:
+        """Return the matrices of its elements in local axes, (elements or 1, 12, 12)."""
+        if kind not in self._made:
+            beam = self.beams[0]
+            matrices = [_matrix(element, beam, kind) for element in self._elements_of_beam]
+            self._made[kind] = np.array(matrices)
+        return self._made[kind]
+
+    @cached_property
+    def _made(self) -> dict[str, FloatArray]:
+        """Matrices made so far: unlike those of constant sections they take time."""
+        return {}
+
+    @cached_property
+    def _elements_of_beam(self) -> list[VaryingElement]:
+        beam = self.beams[0]
+        number = 1 if beam.end_section is None else beam.elements
+        return [beam.varying_element(self.mesh, element) for element in range(number)]
+
+
+def _matrix(element: VaryingElement, beam: Beam, kind: str) -> FloatArray:
+    if kind == "gyroscopic":
+        return element.gyroscopic(beam.spin)
+    if kind == "mass":
+        return element.lumped_mass() if beam.mass == "lumped" else element.mass()
+    if beam.tension == 0.0:
+        return element.stiffness()
+    return element.stiffness() + element.geometric_stiffness(beam.tension)
 
 
 def _apart(dofs: Sequence[int]) -> FloatArray:

@@ -90,6 +90,8 @@ class SparseMatrix:
 
     def restricted(self, kept: IndexArray) -> SparseMatrix:
         """Return the square matrix of the rows and columns in ``kept``, ascending."""
+        if len(kept) == self.shape[0]:
+            return self
         place = np.full(self.shape[0], -1, dtype=np.intp)
         place[kept] = np.arange(len(kept))
         rows, columns = place[self.rows], place[self.columns]

@@ -192,7 +192,8 @@ class Structure:
         """
         beam = self._beam(gauge.beam, "beam")
         beam.require_on(self.mesh, gauge.at, key="at", value=gauge.at)
-        if not beam.section.contains(*gauge.fibre):
+        section = beam.section_at(gauge.at / beam.length(self.mesh))
+        if not section.contains(*gauge.fibre):
             hint = "y and z are measured from the centroid"
             raise InputError("is outside the section", key="fibre", value=gauge.fibre, hint=hint)
         return beam.strain_form(self.mesh, gauge.at, gauge.fibre)

@@ -101,6 +101,10 @@ def _wrong_tag(key: str, value: object, context: dict[str, Any]) -> InputError:
     known = [word.strip("' ") for word in context.get("expected_tags", "").split(",") if word]
     if not isinstance(value, dict):
         return InputError("must be a table", key=key, value=value, hint=f"begin it with [{key}]")
+    for wrong in value:
+        hint = did_you_mean(wrong, [tag])
+        if tag not in value and hint.startswith("did you mean"):
+            return InputError("unknown key", key=f"{key}.{wrong}", value=value[wrong], hint=hint)
     if tag not in value:
         return InputError(_MISSING, key=f"{key}.{tag}", hint="what kind it is")
     hint = did_you_mean(value[tag], known)
@@ -155,10 +159,12 @@ def _is_union(annotation: Any) -> bool:
 
 
 def _member(union: Any, tag: str | int) -> Any:
-    """Return the member of a tagged union whose ``type`` is the tag."""
+    """Return the member of a tagged union that is of the kind of the tag."""
     members = (_bare(member) for member in get_args(union))
-    return next(member for member in members if tag in get_args(_type_of_kind(member)))
+    return next(member for member in members if tag in _kinds(member))
 
 
-def _type_of_kind(table: type[Table]) -> Any:
-    return table.model_fields["type"].annotation
+def _kinds(table: type[Table]) -> tuple[Any, ...]:
+    """Return the words by which a table says its kind: in its first field, a Literal."""
+    first = next(iter(table.model_fields.values()))
+    return get_args(first.annotation)

@@ -3,7 +3,7 @@
 Displacements are linear between the nodes. The nodes' rotations take no part. Arguments are
 those of the prismatic element. A tight bar is a string: its tension resists sideways motion.
 
-J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.5, 11.4 and 15.2.
+J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, chapters 5, 11 and 15.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ Without shear strain phi is 0, and the functions are the cubics of Hermite.
 Lengths and the fields of a slice are numbers, or arrays of one number an element; matrices
 have as many more axes before their two.
 
-J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6, 11.6 and 15.3;
+J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6, 11.6, chapter 15;
 Z. Friedman and J. B. Kosmatka, Computers & Structures 47 (1993) 473-481.
 """
 

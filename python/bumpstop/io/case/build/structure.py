@@ -1,20 +1,25 @@
-"""Nodes, beams and masses."""
+"""Nodes, beams, masses, springs and bearings."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from bumpstop.io.case.build.constraints import built_links, built_relations, built_supports
 from bumpstop.io.case.build.names import named
+from bumpstop.io.case.build.sections import section_of
 from bumpstop.io.case.keys import keyed
-from bumpstop.structure import Beam, Material, PointMass, Rectangle, Structure
+from bumpstop.structure import Beam, Bearing, Material, PointMass, Spring, Structure
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.beams import BeamTable
+    from bumpstop.io.case.tables.sections import SectionTable
     from bumpstop.io.case.tables.structure import StructureTables
+    from bumpstop.io.case.tables.table import Table
 
 __all__ = ["built_structure"]
+
+T = TypeVar("T")
 
 
 def built_structure(case: StructureTables) -> Structure:
@@ -22,38 +27,46 @@ def built_structure(case: StructureTables) -> Structure:
     return Structure(
         nodes=case.nodes,
         beams=_beams(case),
-        masses=[
-            PointMass(name, node=table.node, mass=table.mass) for name, table in case.masses.items()
-        ],
+        masses=_parts("masses", PointMass, case.masses),
+        springs=_parts("springs", Spring, case.springs),
+        bearings=_parts("bearings", Bearing, case.bearings),
         supports=built_supports(case),
         relations=built_relations(case),
         links=built_links(case),
     )
 
 
+def _parts(kind: str, part: Callable[..., T], tables: Mapping[str, Table]) -> list[T]:
+    """Return parts whose arguments are called as the keys of their tables."""
+    parts = []
+    for name, table in tables.items():
+        with keyed(f"{kind}.{name}"):
+            parts.append(part(name, **dict(table)))
+    return parts
+
+
 def _beams(case: StructureTables) -> list[Beam]:
-    materials, sections = {}, {}
+    materials = {}
     for name, material in case.materials.items():
         with keyed(f"materials.{name}"):
             materials[name] = Material(**dict(material))
     for name, section in case.sections.items():
         with keyed(f"sections.{name}"):
-            sections[name] = Rectangle(height=section.height, width=section.width)
-    return [_beam(name, table, materials, sections) for name, table in case.beams.items()]
+            section_of(section, poisson_ratio=0.0)  # also what no beam has must be right
+    return [_beam(name, table, materials, case.sections) for name, table in case.beams.items()]
 
 
 def _beam(
     name: str,
     table: BeamTable,
     materials: Mapping[str, Material],
-    sections: Mapping[str, Rectangle],
+    sections: Mapping[str, SectionTable],
 ) -> Beam:
     with keyed(f"beams.{name}"):
-        return Beam(
-            name,
-            nodes=table.nodes,
-            elements=table.elements,
-            theory=table.theory,
-            material=named("material", table.material, materials),
-            section=named("section", table.section, sections),
-        )
+        said: dict[str, Any] = dict(table)
+        material = named("material", said.pop("material"), materials)
+        for key in ("section", "end_section"):
+            if said[key] is not None:
+                section = named(key, said[key], sections)
+                said[key] = section_of(section, poisson_ratio=material.poisson_ratio)
+        return Beam(name, material=material, **said)

@@ -12,13 +12,18 @@ from bumpstop.io.units import Dimension, read_quantity
 __all__ = [
     "Acceleration3",
     "Angle",
+    "AngularRate",
     "AngularRate3",
+    "Area",
+    "AreaMoment",
     "DampingConstant",
     "Density",
+    "Force",
     "Force3",
     "Length",
     "Length2",
     "Length3",
+    "LineMass",
     "Mass",
     "Moment3",
     "Number3",
@@ -40,6 +45,9 @@ _NUMBER = Dimension("a pure number", "", "0.3")
 _LENGTH = Dimension("a length", "m", "14 mm")
 _PRESSURE = Dimension("a pressure", "Pa", "67 GPa")
 _DENSITY = Dimension("a density", "kg/m^3", "7.85 g/cm^3")
+_AREA = Dimension("an area", "m^2", "4.5 cm^2")
+_AREA_MOMENT = Dimension("a second moment of area", "m^4", "120 cm^4")
+_LINE_MASS = Dimension("a mass a length", "kg/m", "1.2 kg/m")
 _MASS = Dimension("a mass", "kg", "300 g")
 _STIFFNESS = Dimension("a stiffness", "N/m", "18 kN/m")
 _DAMPING = Dimension("a damping constant", "N*s/m", "20 N*s/m")
@@ -156,7 +164,12 @@ Angle = Annotated[float, _quantity(_ANGLE)]
 PositiveLength = Annotated[float, _quantity(_LENGTH, above=0)]
 Pressure = Annotated[float, _quantity(_PRESSURE, above=0)]
 Density = Annotated[float, _quantity(_DENSITY, above=0)]
-Mass = Annotated[float, _quantity(_MASS, above=0)]
+Area = Annotated[float, _quantity(_AREA, above=0)]
+AreaMoment = Annotated[float, _quantity(_AREA_MOMENT, above=0)]
+LineMass = Annotated[float, _quantity(_LINE_MASS, least=0)]
+AngularRate = Annotated[float, _quantity(_ANGULAR_RATE)]
+Force = Annotated[float, _quantity(_FORCE)]
+Mass = Annotated[float, _quantity(_MASS, least=0)]
 Stiffness = Annotated[float, _quantity(_STIFFNESS, above=0)]
 DampingConstant = Annotated[float, _quantity(_DAMPING, least=0)]
 PositiveTime = Annotated[float, _quantity(_TIME, above=0)]

@@ -5,11 +5,13 @@ from pydantic import Field
 from bumpstop.io.case.fields.quantities import Length3
 from bumpstop.io.case.fields.words import Name, NodeName
 from bumpstop.io.case.tables.beams import BeamTable
+from bumpstop.io.case.tables.bearings import BearingTable
 from bumpstop.io.case.tables.links import LinkTable
 from bumpstop.io.case.tables.masses import MassTable
 from bumpstop.io.case.tables.materials import MaterialTable
 from bumpstop.io.case.tables.relations import RelationTable
 from bumpstop.io.case.tables.sections import SectionTable
+from bumpstop.io.case.tables.springs import SpringTable
 from bumpstop.io.case.tables.supports import SupportTable
 from bumpstop.io.case.tables.table import Table
 
@@ -23,7 +25,9 @@ class StructureTables(Table):
     materials: dict[Name, MaterialTable] = Field(default={}, description="Materials, by name")
     sections: dict[Name, SectionTable] = Field(default={}, description="Cross sections, by name")
     beams: dict[Name, BeamTable] = Field(default={}, description="Beams, by name")
-    masses: dict[Name, MassTable] = Field(default={}, description="Point masses, by name")
+    masses: dict[Name, MassTable] = Field(default={}, description="Masses and bodies, by name")
+    springs: dict[Name, SpringTable] = Field(default={}, description="Springs, by name")
+    bearings: dict[Name, BearingTable] = Field(default={}, description="Bearings, by name")
     supports: list[SupportTable] = Field(default=[], description="What is held, and where")
     relations: list[RelationTable] = Field(default=[], description="Sums of dofs that stay zero")
     links: dict[Name, LinkTable] = Field(default={}, description="Rigid links, by name")
