@@ -255,3 +255,26 @@ def test_random_sparse_matrices_arrive_unchanged(size: int, density: float, seed
     np.testing.assert_array_equal(model.damping.to_dense(), symmetric.toarray())
     np.testing.assert_array_equal(model.gyroscopic.to_dense(), skew.toarray())
     np.testing.assert_array_equal(model.circulatory.to_dense(), 2.0 * skew.toarray())
+
+
+def test_the_null_space_of_a_large_matrix_is_found_as_that_of_a_small_one(
+    cantilever: Cantilever, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = of(cantilever(tip=(0.4, 0.3, 1.2), elements=40), fixed=False, positions=False)
+    dense = model.rigid_shapes()
+    monkeypatch.setattr("bumpstop.structure.null_motions.LARGEST_DENSE", 10)
+    sparse = model.rigid_shapes()
+    assert sparse.shape == dense.shape == (246, 6)
+    assert np.linalg.matrix_rank(np.hstack([dense, sparse]), tol=1e-6) == 6
+    clamped = of(cantilever(tip=(0.4, 0.3, 1.2), elements=40), positions=False)
+    assert clamped.rigid_shapes().shape[1] == 0
+
+
+def test_more_null_vectors_than_a_block_has(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("bumpstop.structure.null_motions.LARGEST_DENSE", 10)
+    factor = np.random.default_rng(4).standard_normal((30, 9))
+    dofs = [(f"N{number}", "dz") for number in range(30)]
+    model = Matrices(stiffness=factor @ factor.T, mass=np.eye(30), dofs=dofs, accuracy=1e-12)
+    shapes = model.rigid_shapes()
+    assert shapes.shape == (30, 21)
+    np.testing.assert_allclose(factor.T @ shapes, 0.0, atol=1e-9)

@@ -194,12 +194,16 @@ class Matrices:
 
         Where positions are known these are the rigid motions of geometry, as far as the
         stiffness matrix lets them pass; what remains, mechanisms for example, is found from
-        the matrix itself.
+        the matrix itself, unless more than 3000 dofs of known position hang together.
         """
         about = self._centre()
         motions = self._motions(about) if self.positions else self._translations()
-        stiffness = self.reduced(self.stiffness)
-        return null_motions(stiffness, motions[self.free], self.accuracy)
+        return null_motions(
+            self.reduced(self.stiffness),
+            motions[self.free],
+            self.accuracy,
+            search_large=not self.positions,
+        )
 
     def _symmetric_or_none(self, key: str, given: GivenMatrix | None) -> SparseMatrix:
         if given is None:

@@ -7,15 +7,18 @@ import numpy as np
 from bumpstop.arguments import FloatArray
 from bumpstop.structure.echelon import independent_columns, null_space
 from bumpstop.structure.graph import components
+from bumpstop.structure.null_search import null_vectors
 from bumpstop.structure.sparse import SparseMatrix
 
 __all__ = ["LARGEST_DENSE", "is_definite", "null_motions"]
 
 LARGEST_DENSE = 3000
-"""Most dofs that move together whose matrix is searched for motions that nobody proposed."""
+"""Most dofs that move together whose matrix is searched always, and by dense methods."""
 
 
-def null_motions(stiffness: SparseMatrix, proposed: FloatArray, accuracy: float) -> FloatArray:
+def null_motions(
+    stiffness: SparseMatrix, proposed: FloatArray, accuracy: float, *, search_large: bool = False
+) -> FloatArray:
     """Return independent motions x with ``stiffness @ x = 0``, (dofs, motions).
 
     Dofs that the matrix does not couple are looked at apart. Combinations of the proposed
@@ -29,6 +32,8 @@ def null_motions(stiffness: SparseMatrix, proposed: FloatArray, accuracy: float)
         Motions that may be free of strain, the rigid ones for example, (dofs, m).
     accuracy
         What is taken for zero, relative to the sum of the sizes of what adds up to it.
+    search_large
+        Search for motions that were not proposed also among more than ``LARGEST_DENSE`` dofs.
 
     Examples
     --------
@@ -43,17 +48,20 @@ def null_motions(stiffness: SparseMatrix, proposed: FloatArray, accuracy: float)
     found = [np.zeros((size, 0))]
     for dofs in components(size, stiffness.rows, stiffness.columns):
         group = np.array(dofs)
-        motions = _group_motions(stiffness.restricted(group), proposed[group], accuracy)
+        own = stiffness.restricted(group)
+        motions = _group_motions(own, proposed[group], accuracy, search_large)
         found.append(np.zeros((size, motions.shape[1])))
         found[-1][group] = motions
     return np.hstack(found)
 
 
-def _group_motions(stiffness: SparseMatrix, proposed: FloatArray, accuracy: float) -> FloatArray:
+def _group_motions(
+    stiffness: SparseMatrix, proposed: FloatArray, accuracy: float, search_large: bool
+) -> FloatArray:
     known = _combinations(stiffness, proposed, accuracy)
-    if stiffness.shape[0] > LARGEST_DENSE:
+    if stiffness.shape[0] > LARGEST_DENSE and not search_large:
         return known
-    return np.hstack([known, _further(stiffness.to_dense(), known, accuracy)])
+    return np.hstack([known, _further(stiffness, known, accuracy)])
 
 
 def _combinations(stiffness: SparseMatrix, proposed: FloatArray, accuracy: float) -> FloatArray:
@@ -70,20 +78,32 @@ def _combinations(stiffness: SparseMatrix, proposed: FloatArray, accuracy: float
     return combined
 
 
-def _further(stiffness: FloatArray, known: FloatArray, accuracy: float) -> FloatArray:
+def _further(stiffness: SparseMatrix, known: FloatArray, accuracy: float) -> FloatArray:
     """Return the motions that strain nothing and are no combination of those known."""
     scale = _unit_scale(stiffness)
-    scaled = stiffness * np.outer(scale, scale)
-    size = np.abs(scaled).sum(axis=0).max()
+    scaled = SparseMatrix(
+        stiffness.shape,
+        stiffness.starts,
+        stiffness.rows,
+        stiffness.values * scale[stiffness.rows] * scale[stiffness.columns],
+    )
+    size = float((scaled.magnitudes() @ np.ones(len(scale))).max())
     if size == 0.0:  # nothing holds on to this dof
-        return np.eye(len(scaled))[:, known.shape[1] :]
+        return np.eye(len(scale))[:, known.shape[1] :]
     directions = np.linalg.qr(known / scale[:, np.newaxis])[0]
-    stiffened = scaled + size * (directions @ directions.T)
-    if _exceeds(stiffened, accuracy * size):
-        return np.zeros((len(scaled), 0))
+    search = _dense_null_vectors if len(scale) <= LARGEST_DENSE else null_vectors
+    return _unit_columns(scale[:, np.newaxis] * search(scaled, directions, accuracy * size))
+
+
+def _dense_null_vectors(matrix: SparseMatrix, known: FloatArray, bound: float) -> FloatArray:
+    """Return what ``null_vectors`` does, for a matrix small enough to be stored whole."""
+    size = float(np.abs(matrix.values).max())
+    stiffened = matrix.to_dense() + size * (known @ known.T)
+    if _exceeds(stiffened, bound):
+        return np.zeros((len(stiffened), 0))
     values, vectors = np.linalg.eigh(stiffened)
-    loose: FloatArray = scale[:, np.newaxis] * vectors[:, np.abs(values) <= accuracy * size]
-    return _unit_columns(loose)
+    found: FloatArray = vectors[:, np.abs(values) <= bound]
+    return found
 
 
 def is_definite(matrix: FloatArray, bound: float) -> bool:
@@ -108,9 +128,11 @@ def _exceeds(matrix: FloatArray, bound: float) -> bool:
     return True
 
 
-def _unit_scale(matrix: FloatArray) -> FloatArray:
+def _unit_scale(matrix: SparseMatrix) -> FloatArray:
     """Return factors that bring the diagonal near one, powers of two so that nothing rounds."""
-    size = np.sqrt(np.maximum(np.abs(matrix.diagonal()), np.abs(matrix).max(axis=0) * 1e-6))
+    largest = np.zeros(matrix.shape[0])
+    np.maximum.at(largest, matrix.rows, np.abs(matrix.values))
+    size = np.sqrt(np.maximum(np.abs(matrix.diagonal()), 1e-6 * largest))
     scale: FloatArray = np.exp2(-np.round(np.log2(np.where(size > 0.0, size, 1.0))))
     return scale
 
