@@ -84,6 +84,12 @@ def test_refuses(options: dict[str, Any], key: str, what: str) -> None:
     assert caught.value.key == key
 
 
+def test_energies_beyond_all_numbers_are_refused() -> None:
+    with pytest.raises(bs.InputError, match="too fast to compute with") as caught:
+        bs.simulate(problem(initial=bs.ModalState(velocity=[1e200, 0.0])))
+    assert caught.value.key == "initial"
+
+
 def test_a_case_is_no_problem() -> None:
     case = bs.load_case(Path(__file__).parents[1] / "cases" / "sdnl32" / "case.toml")
     with pytest.raises(bs.InputError, match=r"must be a Problem.*take one of its problems"):

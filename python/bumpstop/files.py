@@ -48,7 +48,8 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
         yield part
         part.replace(final)
     except OSError as error:
-        reason = error.strerror or str(error)
+        # Not its own words: those of HDF5 tell addresses in memory.
+        reason = os.strerror(error.errno) if error.errno else str(error)
         raise InputError(f"cannot be written: {reason}", file=str(final)) from error
     finally:
         with suppress(OSError):

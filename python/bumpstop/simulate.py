@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from bumpstop import _core
 from bumpstop.arguments import did_you_mean, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
@@ -21,6 +23,8 @@ OPTIONS: dict[str, tuple[str, ...]] = {
 }
 """What each method can be told."""
 MOST_STEPS = 1e9
+MOST_ENERGY = 1e200
+"""Twice the energy, in J, above which products of motions leave the range of numbers."""
 
 
 def simulate(
@@ -127,9 +131,14 @@ def _check_options(method: str, unknown: dict[str, object], **known: object) -> 
 
 def _model(problem: Problem) -> CanonicalForm:
     try:
-        return canonical_form(problem)
+        model = canonical_form(problem)
     except _core.CoreError as error:
         raise InputError(str(error), key="problem") from error
+    with np.errstate(over="ignore"):
+        energy = model.velocity @ model.velocity
+    if not energy < MOST_ENERGY:
+        raise InputError("moves too fast to compute with", key="initial", hint="check the units")
+    return model
 
 
 def _checked_step(

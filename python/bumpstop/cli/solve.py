@@ -92,7 +92,7 @@ def _located(case: Case, variant: str) -> Iterator[None]:
         raise InputError(
             error.what,
             file=str(case.path),
-            key=f"run.{error.key}" if error.key else "run",
+            key="initial" if error.key == "initial" else f"run.{error.key}",
             value=error.value,
             hint=error.hint,
         ) from error
