@@ -92,7 +92,7 @@ def _located(case: Case, variant: str) -> Iterator[None]:
         raise InputError(
             error.what,
             file=str(case.path),
-            key="initial" if error.key == "initial" else f"run.{error.key}",
+            key=_key(error.key),
             value=error.value,
             hint=error.hint,
         ) from error
@@ -101,3 +101,10 @@ def _located(case: Case, variant: str) -> Iterator[None]:
     except FloatingPointError as error:
         what = "numbers grew too large or too small to compute with"
         raise ComputationError(f"{case.path}: variant {variant}: {what}") from error
+
+
+def _key(argument: str | None) -> str:
+    """Return where in the file an argument of `simulate` stands."""
+    if argument == "initial":
+        return "initial"
+    return f"run.{argument}" if argument else "run"
