@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.errors import InputError
 from bumpstop.files import written_whole
 from bumpstop.io.netcdf_format import Variable, write_file
 from bumpstop.post.energy import ledger
 from bumpstop.projection import TRANSLATIONS, along
 from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, STOP_ENERGIES, dof_units
 from bumpstop.response import MOTIONS
-from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.dofs import Dof
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
     from bumpstop.arguments import FloatArray
     from bumpstop.response import Response
-    from bumpstop.structure.structure import Structure
+    from bumpstop.structure.model import LinearModel
 
 __all__ = ["write_netcdf"]
 
@@ -76,8 +77,8 @@ def _variables(response: Response) -> Iterator[Variable]:
     yield from _stops(response)
     yield from _gauges(response, motions[0])
     yield from _outputs(response, motions)
-    if response.problem.basis.structure is not None:
-        yield from _nodes(response, response.problem.basis.structure, motions[0])
+    if response.problem.basis.model is not None:
+        yield from _nodes(response, response.problem.basis.model, motions[0])
     yield from _energies(response)
     yield from _impacts(response)
     yield from _events(response)
@@ -155,19 +156,27 @@ def _plain(name: str) -> str:
     return re.sub(r"\W", "_", name, flags=re.ASCII)
 
 
-def _nodes(response: Response, structure: Structure, motion: FloatArray) -> Iterator[Variable]:
-    nodes = structure.mesh.names
+def _nodes(response: Response, model: LinearModel, motion: FloatArray) -> Iterator[Variable]:
+    """Give places and displacements of all nodes, where their places are known."""
+    basis = response.problem.basis
+    nodes = list(dict.fromkeys(node for node, dof in model.dofs if dof in TRANSLATIONS))
+    try:
+        positions = np.array([model.position(node) for node in nodes])
+    except InputError:  # matrices need not come with places
+        return
     yield Variable("node", ("node",), _texts(nodes), {"long_name": "name of the node"})
-    for axis, values in zip("xyz", structure.mesh.positions.T, strict=True):
+    for axis, values in zip("xyz", positions.T, strict=True):
         long_name = f"{axis} of the node at rest"
         yield Variable(axis, ("node",), values, {"units": "m", "long_name": long_name})
-    moving = structure.expansion.rows
-    dofs = [dof for dof in TRANSLATIONS if (moving % 6 == DOFS.index(dof)).any()]
+    moving = {model.dofs[row][1] for row in np.unique(model.expansion.rows)}
+    dofs = [dof for dof in TRANSLATIONS if dof in moving]
     if not dofs:
         return
-    rows = np.arange(len(nodes))[:, np.newaxis] * 6 + [DOFS.index(dof) for dof in dofs]
-    displacement = motion @ response.problem.basis.shapes[rows.ravel()].T
-    table = displacement.reshape(-1, *rows.shape)
+    rows = {dof: row for row, dof in enumerate(model.dofs)}
+    # A node without the dof gets the row of zeros behind all others.
+    shapes = np.vstack([basis.shapes, np.zeros(basis.shapes.shape[1])])
+    places = np.array([[rows.get((node, dof), -1) for dof in dofs] for node in nodes])
+    table = (motion @ shapes[places.ravel()].T).reshape(-1, *places.shape)
     attributes = QUANTITIES["displacement"].attributes | {"coordinates": "x y z"}
     yield Variable("dof", ("dof",), _texts(dofs), {"long_name": "degree of freedom"})
     yield Variable("displacement", ("time", "node", "dof"), table, attributes)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bumpstop.errors import InputError
+from bumpstop.structure.drawn import DrawnModel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from bumpstop.arguments import FloatArray
     from bumpstop.modal.basis import ModalBasis
-    from bumpstop.structure.structure import Structure
 
 __all__ = ["Outline", "outline", "view_of"]
 
@@ -62,9 +62,9 @@ def outline(basis: ModalBasis, extra: Iterable[str] = ()) -> Outline:
     extra
         Nodes or points along beams that must be among the points, as those of the stops.
     """
-    if basis.structure is None:
-        return _side_by_side(basis)
-    return _from_structure(basis, basis.structure, extra)
+    if isinstance(basis.model, DrawnModel):
+        return _from_model(basis, basis.model, extra)
+    return _side_by_side(basis)
 
 
 def view_of(positions: FloatArray, motion: FloatArray) -> FloatArray:
@@ -113,31 +113,22 @@ def _side_by_side(basis: ModalBasis) -> Outline:
     return Outline(positions, shapes, [], {name: i for i, name in enumerate(names)}, True)
 
 
-def _from_structure(basis: ModalBasis, structure: Structure, extra: Iterable[str]) -> Outline:
+def _from_model(basis: ModalBasis, model: DrawnModel, extra: Iterable[str]) -> Outline:
     places: list[str] = []
-    positions: list[FloatArray] = []
     lines: list[tuple[int, int]] = []
-    budget = max(MOST_POINTS // max(len(structure.beams), 1), 2)
-    for beam in structure.beams:
-        start, end = (np.array(structure.nodes[node], dtype=float) for node in beam.nodes)
-        length = float(np.linalg.norm(end - start))
-        pieces = min(_pieces(beam.elements), budget)
+    budget = max(MOST_POINTS // max(len(model.lines), 1), 2)
+    for line in model.lines:
+        pieces = min(_pieces(line.elements), budget)
         lines.append((len(places), pieces + 1))
-        for along in np.linspace(0.0, 1.0, pieces + 1):
-            places.append(f"{beam.name}@{float(along) * length!r}")
-            positions.append(start + along * (end - start))
+        along = np.linspace(0.0, line.length, pieces + 1).tolist()
+        places += [f"{line.name}@{distance!r}" for distance in along]
     nodes = {}
-    for name in structure.nodes:
-        nodes[name] = len(places)
-        places.append(name)
-        positions.append(np.array(structure.nodes[name], dtype=float))
-    for place in extra:
-        if place not in nodes:
-            nodes[place] = len(places)
-            places.append(place)
-            positions.append(np.array(structure.position(place), dtype=float))
+    for place in dict.fromkeys([*model.nodes, *extra]):
+        nodes[place] = len(places)
+        places.append(place)
+    positions = np.array([model.position(place) for place in places])
     shapes = np.array([_shape(basis, place) for place in places])
-    return Outline(np.array(positions), shapes, lines, nodes, False)
+    return Outline(positions, shapes, lines, nodes, False)
 
 
 def _pieces(elements: int) -> int:

@@ -9,14 +9,18 @@ import numpy as np
 from bumpstop.report.outline import view_of
 from bumpstop.report.scales import scale_for, with_unit
 from bumpstop.report.words import unit_of
+from bumpstop.structure.drawn import DrawnModel
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from bumpstop.arguments import FloatArray
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
     from bumpstop.report.outline import Outline
     from bumpstop.response import Response
-    from bumpstop.structure.structure import Structure
+    from bumpstop.structure.model import LinearModel
+    from bumpstop.structure.support import Support
 
 __all__ = ["mode_scene", "motion_scene"]
 
@@ -96,18 +100,21 @@ def _drawing(drawing: Outline, basis: ModalBasis, view: FloatArray) -> dict[str,
         "lines": drawing.lines,
         "nodes": [{"name": name, "point": point} for name, point in drawing.nodes.items()],
         "bodies": [drawing.nodes[node] for node in dict.fromkeys(bodies)],
-        "supports": [] if structure is None else _supports(structure, drawing, view),
+        "supports": _supports(basis.model, drawing, view),
     }
 
 
-def _supports(structure: Structure, drawing: Outline, view: FloatArray) -> list[dict[str, Any]]:
+def _supports(
+    model: LinearModel | None, drawing: Outline, view: FloatArray
+) -> list[dict[str, Any]]:
     """Return how each node that a support names is held, as the view shows it.
 
     A support of all nodes alone keeps the motion in a plane or on an axis; it is not drawn.
     """
     held: dict[str, set[str]] = {}
     everywhere: set[str] = set()
-    for support in structure.supports:
+    supports: Sequence[Support] = model.supports if isinstance(model, DrawnModel) else ()
+    for support in supports:
         if support.nodes == "all":
             everywhere |= set(support.fixed)
         else:

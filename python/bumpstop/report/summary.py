@@ -7,19 +7,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bumpstop.loads import Gravity, ModalState, NodalForce, RigidRotation
+from bumpstop.modal.substructure import Assembly
 from bumpstop.report.scales import significant, with_unit
 from bumpstop.structure.sections.rectangle import Rectangle
+from bumpstop.structure.structure import Structure
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bumpstop.laws import Stop
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.modal.substructure import Joint, Placed
     from bumpstop.problem import InitialState, Load, Problem
     from bumpstop.response import Response
     from bumpstop.structure.beam import Beam
     from bumpstop.structure.gauge import Gauge
-    from bumpstop.structure.structure import Structure
+    from bumpstop.structure.model import LinearModel
     from bumpstop.structure.support import Support
 
 __all__ = ["METHODS", "Row", "method_words", "model_rows"]
@@ -55,9 +58,8 @@ def method_words(response: Response) -> tuple[str, str]:
 
 def model_rows(problem: Problem) -> list[Row]:
     """Return the model of a problem, one row a subject, those without content left out."""
-    structure = problem.basis.structure
-    rows: list[Row] = [] if structure is None else _structure_rows(structure)
-    rows += [
+    rows = [
+        *_model_parts(problem.basis.model),
         ("Basis", [_basis(problem.basis)]),
         ("Stops", [_stop(law) for law in problem.laws]),
         ("Loads", [_load(load) for load in problem.loads]),
@@ -66,6 +68,35 @@ def model_rows(problem: Problem) -> list[Row]:
         ("Time", [_time(problem)]),
     ]
     return [(term, lines) for term, lines in rows if lines]
+
+
+def _model_parts(model: LinearModel | None) -> list[Row]:
+    if isinstance(model, Structure):
+        return _structure_rows(model)
+    return _assembly_rows(model) if isinstance(model, Assembly) else []
+
+
+def _assembly_rows(assembly: Assembly) -> list[Row]:
+    parts = [_part(name, placed) for name, placed in assembly.parts.items()]
+    joints = [f"{joint.first} and {joint.second}{_shared(joint)}" for joint in assembly.joined]
+    return [
+        ("Parts", _short(parts)),
+        ("Joints", _short(joints)),
+        ("Supports", _short([_support(support) for support in assembly.supports])),
+    ]
+
+
+def _part(name: str, placed: Placed) -> str:
+    reduced = placed.component
+    interface = ", ".join(node for node, _ in reduced.component.nodes)
+    kept = len(reduced.labels)
+    shapes = "1 inner shape" if kept == 1 else f"{kept} inner shapes"
+    turned = "" if np.array_equal(placed.axes, np.eye(3)) else ", turned"
+    return f"{name}: at {_vector(placed.at, 'm')}{turned}, interface {interface}, {shapes}"
+
+
+def _shared(joint: Joint) -> str:
+    return f": {', '.join(joint.dofs)}" if joint.dofs is not None else ""
 
 
 def _structure_rows(structure: Structure) -> list[Row]:

@@ -15,6 +15,7 @@ from bumpstop.structure.beam import Beam
 from bumpstop.structure.beam_blocks import beam_blocks
 from bumpstop.structure.bearing import Bearing
 from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.drawn import Line
 from bumpstop.structure.elimination import Freedom, freedom
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.frame import rigid_motions
@@ -110,6 +111,11 @@ class Structure:
         meshed = [beam for beam in self.beams if beam.elements > 1]
         names = [node for beam in meshed for node in beam.inner_nodes]
         return mesh.with_nodes(names, [beam.inner_positions(mesh) for beam in meshed])
+
+    @property
+    def lines(self) -> list[Line]:
+        """The beams, as they are drawn."""
+        return [Line(beam.name, beam.length(self.mesh), beam.elements) for beam in self.beams]
 
     @property
     def dofs(self) -> tuple[Dof, ...]:

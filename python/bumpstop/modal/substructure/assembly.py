@@ -17,6 +17,7 @@ from bumpstop.modal.substructure.joint import Joint
 from bumpstop.modal.substructure.part import Part
 from bumpstop.modal.substructure.placed import Placed
 from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.drawn import Line
 from bumpstop.structure.echelon import null_space
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
@@ -100,6 +101,23 @@ class Assembly:
     def dofs(self) -> tuple[Dof, ...]:
         """Node and dof of each row."""
         return tuple(dof for part in self._parts.values() for dof in part.dofs)
+
+    @property
+    def nodes(self) -> dict[str, Vector]:
+        """Coordinates of the nodes of all parts that their users named, in m."""
+        return {node: at for part in self._parts.values() for node, at in part.nodes.items()}
+
+    @property
+    def lines(self) -> list[Line]:
+        """The beams of all parts, as they are drawn."""
+        return [line for part in self._parts.values() for line in part.lines]
+
+    @cached_property
+    def joined(self) -> tuple[Joint, ...]:
+        """All joints, those found by place too."""
+        given = [_joint(number, item) for number, item in enumerate(self.joints)]
+        found = self._interfaces.coincident(given) if self.join_coincident else []
+        return (*given, *found)
 
     @cached_property
     def free(self) -> IndexArray:
@@ -261,10 +279,7 @@ class Assembly:
     @cached_property
     def _equations(self) -> FloatArray:
         """What joints and supports demand to be zero, (equations, coordinates)."""
-        joints = [_joint(number, item) for number, item in enumerate(self.joints)]
-        if self.join_coincident:
-            joints += self._interfaces.coincident(joints)
-        return self._interfaces.equations(joints, self.supports)
+        return self._interfaces.equations(self.joined, self.supports)
 
     @cached_property
     def _coupling(self) -> Coupling:

@@ -71,7 +71,7 @@ class Component:
     @cached_property
     def boundary(self) -> IndexArray:
         """Numbers of the interface's dofs in the model, in the order of the interface."""
-        return np.array([self._rows[node, dof] for node, dofs in self._nodes for dof in dofs])
+        return np.array([self._rows[node, dof] for node, dofs in self.nodes for dof in dofs])
 
     @cached_property
     def boundary_coordinates(self) -> IndexArray:
@@ -79,7 +79,8 @@ class Component:
         return np.searchsorted(self.model.free, self.boundary)
 
     @property
-    def _nodes(self) -> Sequence[InterfaceNode]:
+    def nodes(self) -> Sequence[InterfaceNode]:
+        """The interface's nodes with their dofs."""
         nodes: Sequence[InterfaceNode] = self.interface  # type: ignore[assignment]
         return nodes
 

@@ -14,6 +14,7 @@ from bumpstop.errors import InputError
 from bumpstop.modal.substructure.placed import Placed
 from bumpstop.modal.substructure.turning import mixed_dofs, turnable, turning_matrix
 from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.drawn import DrawnModel, Line
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.model import StrainModel
@@ -89,6 +90,18 @@ class Part:
     def interface(self) -> list[str]:
         """The interface nodes, without the part's name."""
         return list(dict.fromkeys(node for node, _ in self._boundary))
+
+    @property
+    def nodes(self) -> dict[str, Vector]:
+        """Where the nodes are that the component's user named, with the part's name, in m."""
+        known = self._model.nodes if isinstance(self._model, DrawnModel) else self.interface
+        return {f"{self.name}.{node}": self.position(node) for node in known}
+
+    @property
+    def lines(self) -> list[Line]:
+        """The beams, with the part's name."""
+        lines = self._model.lines if isinstance(self._model, DrawnModel) else []
+        return [line._replace(name=f"{self.name}.{line.name}") for line in lines]
 
     def matrix(self, kind: str) -> SparseMatrix:
         """Return one of the matrices of the model, by its name, on the part's rows."""
