@@ -15,7 +15,6 @@ from pydantic import ValidationError
 from bumpstop.errors import InputError
 from bumpstop.io.case.build import Builder
 from bumpstop.io.case.case import Case, Method, MethodOptions
-from bumpstop.io.case.component_files import with_component_files
 from bumpstop.io.case.document import read_document
 from bumpstop.io.case.keys import dotted
 from bumpstop.io.case.mistakes import first_mistake
@@ -90,8 +89,12 @@ def _method(case: CaseFile) -> Method:
 
 
 def _checked(document: dict[str, Any], folder: Path) -> CaseFile:
+    if "components" in document:
+        from bumpstop.io.case.component_files import with_component_files
+
+        document = with_component_files(document, folder)
     try:
-        return CaseFile.model_validate(with_component_files(document, folder))
+        return CaseFile.model_validate(document)
     except ValidationError as error:
         raise first_mistake(error, CaseFile) from error
 
