@@ -168,7 +168,7 @@ def _nodes(response: Response, model: LinearModel, motion: FloatArray) -> Iterat
     for axis, values in zip("xyz", positions.T, strict=True):
         long_name = f"{axis} of the node at rest"
         yield Variable(axis, ("node",), values, {"units": "m", "long_name": long_name})
-    moving = {model.dofs[row][1] for row in np.unique(model.expansion.rows)}
+    moving = {model.dofs[row][1] for row in model.expansion.rows.tolist()}
     dofs = [dof for dof in TRANSLATIONS if dof in moving]
     if not dofs:
         return
