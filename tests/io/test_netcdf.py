@@ -145,6 +145,22 @@ def test_a_problem_without_stops_and_structure(tmp_path: Path) -> None:
         assert found["time"].values.tolist() == [0.25, 0.5]
 
 
+def test_vectors_of_the_user_have_their_own_names(tmp_path: Path) -> None:
+    modes = hinged_modes(elements=4, modes=3)
+    assert modes.structure is not None
+    mixed = modes.shapes @ [[1, 1, 0], [1, -1, 0], [0, 0, 1]]
+    basis = bs.ModalBasis.from_vectors(modes.structure, mixed, labels=["sum", "difference", "m3"])
+    state = bs.ModalState(velocity=[0.0, 0.5, 0.0])
+    response = bs.simulate(bs.Problem(basis, initial=state, duration=0.01, sample=1e-3))
+    response.to_netcdf(tmp_path / "response.nc")
+    with xr.open_dataset(tmp_path / "response.nc", engine="h5netcdf") as file:
+        assert file["vector"].values.tolist() == ["sum", "difference", "m3"]
+        speed = file["modal_velocity"]
+        assert speed.dims == ("time", "vector")
+        np.testing.assert_allclose(speed[0], [0.0, 0.5, 0.0], atol=1e-14)
+        assert file["frequency"].dims == ("mode",)
+
+
 def test_a_file_that_was_there_is_replaced(tmp_path: Path, thrown_beam: bs.Response) -> None:
     (tmp_path / "response.nc").write_text("old")
     thrown_beam.to_netcdf(tmp_path / "response.nc")

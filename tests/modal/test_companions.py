@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -91,6 +92,47 @@ def test_residual_flexibility_makes_static_response_exact(modes: int, elements: 
     flexibility = forces.T @ np.linalg.solve(stiffness, forces)
     found = (rows / basis.omega2) @ rows.T
     np.testing.assert_allclose(found, flexibility, rtol=1e-9, atol=1e-12 * flexibility.max())
+
+
+def test_static_shapes_of_a_buckled_beam() -> None:
+    """Above Euler's load the straight beam is unstable, and still has its flexibility."""
+    euler = math.pi**2 * 67e9 * (0.02 * 0.014**3 / 12) / LENGTH**2
+    member = bs.Beam(
+        "AB",
+        nodes=("A", "B"),
+        elements=8,
+        material=ALLOY,
+        section=BAR,
+        tension=-1.5 * euler,
+    )
+    model = bs.Structure(
+        nodes={"A": (0, 0, 0), "B": (LENGTH, 0, 0)},
+        beams=[member],
+        supports=[PLANE, bs.Support(nodes=("A", "B"), fixed="dy")],
+    )
+    basis = bs.ModalBasis.from_structure(model, modes=3, static_shapes=[("AB@0.3", "dy")])
+    assert basis.omega2[0] < 0.0 < basis.omega2[1]
+    assert basis.remarks == ("the structure is unstable in mode 1: it moves away by itself",)
+    stiffness, _ = dense(model)
+    force = place_rows(model, [("AB@0.3", "dy")])[:, 0]
+    wanted = force @ np.linalg.solve(stiffness, force)
+    assert wanted < 0.0
+    found = np.sum(basis.row("AB@0.3", "dy") ** 2 / basis.omega2)
+    assert found == pytest.approx(wanted, rel=1e-9)
+
+
+def test_a_force_that_moves_no_mass_is_refused() -> None:
+    model = bs.Matrices(
+        stiffness=np.array([[3.0, -1.0], [-1.0, 1.0]]),
+        mass=np.diag([2.0, 0.0]),
+        dofs=[("P", "dx"), ("Q", "dx")],
+    )
+    with pytest.raises(
+        bs.InputError, match=r"static_shapes\[0\]: a force here has no mass to move"
+    ):
+        bs.ModalBasis.from_structure(model, modes=1, static_shapes=[("Q", "dx")])
+    basis = bs.ModalBasis.from_vectors(model, np.ones((2, 1)))
+    np.testing.assert_allclose(basis.omega2, 1.0, rtol=1e-14)
 
 
 def test_modes_stay_as_they_are_beside_static_shapes() -> None:

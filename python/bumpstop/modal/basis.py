@@ -20,7 +20,7 @@ from bumpstop.modal.places import Place
 from bumpstop.modal.projected import projected
 from bumpstop.modal.rigid_modes import require_rigid_modes
 from bumpstop.modal.selection import ModeSelection, mode_selection
-from bumpstop.modal.vectors import DEPENDENT, canonical_vectors
+from bumpstop.modal.vectors import canonical_vectors
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.free_motions import free_motions
 from bumpstop.structure.gauge import Gauge
@@ -223,13 +223,13 @@ class ModalBasis:
         rigid = model.expansion @ model.rigid_shapes()
         found = canonical_vectors(given, model.stiffness, model.mass, rigid)
         if len(found.omega2) == 0:
-            raise InputError("all vectors are zero", key="vectors")
+            raise InputError("no vector moves any mass", key="vectors")
         basis = cls._from_shapes(model, found.omega2, found.shapes, damping, damping_coupling)
         return replace(
             basis,
             labels=names,
             coordinates=found.coordinates,
-            dropped=tuple(f"{names[i]} {DEPENDENT}" for i in found.dropped),
+            dropped=tuple(f"{names[number]} {why}" for number, why in found.dropped.items()),
         )
 
     @classmethod

@@ -12,7 +12,7 @@ from bumpstop.modal.coordinates import UserCoordinates
 from bumpstop.modal.independent import NEGLIGIBLE, mass_norms, without
 from bumpstop.modal.places import Place, resolved_places, told_as
 from bumpstop.modal.static_shapes import StaticShapes
-from bumpstop.modal.vectors import DEPENDENT, canonical_vectors
+from bumpstop.modal.vectors import canonical_vectors
 from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.model import LinearModel
 
@@ -85,7 +85,7 @@ def companions(
     rigid = model.expansion @ model.rigid_shapes()
     canonical = canonical_vectors(vectors, model.stiffness, model.mass, rigid)
     kept = [i for i in range(len(fresh)) if i not in canonical.dropped]
-    dropped += [f"{labels[i]} {DEPENDENT}" for i in canonical.dropped]
+    dropped += [f"{labels[number]} {why}" for number, why in canonical.dropped.items()]
     return Companions(
         canonical.omega2,
         canonical.shapes,

@@ -30,8 +30,12 @@ def given_vectors(model: LinearModel, vectors: object) -> FloatArray:
         wrong = np.flatnonzero(np.abs(field - moved) > ROUNDING * np.abs(field).max())
         if len(wrong):
             node, dof = model.dofs[wrong[0]]
-            what = f"vector {number} moves {dof} of {node}, which is not free to move so"
-            raise InputError(what, key="vectors", value=float(field[wrong[0]]))
+            raise InputError(
+                f"vector {number} moves {dof} of {node}, which is not free to move so",
+                key="vectors",
+                value=float(field[wrong[0]]),
+                hint="take the model's expansion @ vectors[free]",
+            )
     return fields
 
 

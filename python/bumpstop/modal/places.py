@@ -12,7 +12,8 @@ import numpy as np
 from bumpstop.arguments import FloatArray, name, one_of, vector
 from bumpstop.errors import InputError
 from bumpstop.structure.dofs import DOFS
-from bumpstop.structure.model import LinearModel
+from bumpstop.structure.forms import LinearForm
+from bumpstop.structure.model import InertiaModel, LinearModel
 
 __all__ = ["Place", "ResolvedPlace", "resolved_places", "told_as"]
 
@@ -68,13 +69,18 @@ def _resolved(model: LinearModel, place: object, key: str) -> ResolvedPlace:
     node = name(key, place[0])
     with told_as(key):
         label, components = _components(place[1])
-        forms = [(model.displacement_form(node, dof), part) for dof, part in components.items()]
+        form = LinearForm.sum(
+            [(part, model.displacement_form(node, dof)) for dof, part in components.items()]
+        )
     load = np.zeros(len(model.dofs))
-    for form, part in forms:
-        np.add.at(load, form.dofs, part * form.weights)
+    np.add.at(load, form.dofs, form.weights)
+    where = f"{node} {label}"
     if not (model.expansion.transposed() @ load).any():
         hint = "a support or a relation holds it"
-        raise InputError("nothing can move here", key=key, value=f"{node} {label}", hint=hint)
+        raise InputError("nothing can move here", key=key, value=where, hint=hint)
+    if isinstance(model, InertiaModel) and not model.has_inertia(form):
+        hint = "what it bends follows the other dofs without delay"
+        raise InputError("a force here has no mass to move", key=key, value=where, hint=hint)
     return ResolvedPlace(f"{node}.{label}", load)
 
 

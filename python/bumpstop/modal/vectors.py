@@ -9,15 +9,13 @@ import numpy as np
 from bumpstop._core import CoreError, symmetric_modes
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError
-from bumpstop.modal.coordinates import UserCoordinates
+from bumpstop.modal.coordinates import UserCoordinates, scaled_coordinates
 from bumpstop.modal.independent import independent_vectors, mass_norms, without
 from bumpstop.modal.signs import largest_positive
 from bumpstop.structure.sparse import SparseMatrix
 
-__all__ = ["DEPENDENT", "RIGID", "CanonicalVectors", "canonical_vectors"]
+__all__ = ["RIGID", "CanonicalVectors", "canonical_vectors"]
 
-DEPENDENT = "is left out: it depends on those before it"
-"""What is said of a vector that is dropped."""
 DIAGONAL = 1e-11
 """Terms off the diagonal below this, relative to those on it, are rounding."""
 RIGID = 1e-6
@@ -34,8 +32,8 @@ class CanonicalVectors(NamedTuple):
     """One a column, (n, N)."""
     coordinates: UserCoordinates | None
     """How they are made of the vectors given; None where they are those vectors."""
-    dropped: list[int]
-    """Which of the vectors given depend on those before them."""
+    dropped: dict[int, str]
+    """Which of the vectors given are left out, and that they are and why."""
 
 
 def canonical_vectors(
@@ -71,7 +69,11 @@ def canonical_vectors(
     from_canonical = np.zeros((vectors.shape[1], len(kept)))
     from_canonical[kept] = np.linalg.solve(made_of, independent.T @ (mass @ shapes))
     coordinates = UserCoordinates(shapes.T @ weighted, from_canonical)
-    dropped = [number for number in range(vectors.shape[1]) if number not in kept]
+    dropped = {
+        number: f"is left out: it {'depends on those before it' if norm else 'moves no mass'}"
+        for number, norm in enumerate(mass_norms(vectors, mass))
+        if number not in kept
+    }
     return CanonicalVectors(omega2, shapes, coordinates, dropped)
 
 
@@ -95,10 +97,7 @@ def _if_diagonal(
         return None
     omega2 = _energies(shapes, stiffness)
     omega2[mass_norms(without(rigid, shapes, mass), mass) <= RIGID] = 0.0
-    scaled = None
-    if not np.all(scale == 1.0):
-        scaled = UserCoordinates(np.diag(scale), np.diag(1.0 / scale))
-    return CanonicalVectors(omega2, shapes, scaled, [])
+    return CanonicalVectors(omega2, shapes, scaled_coordinates(scale), {})
 
 
 def _split(
