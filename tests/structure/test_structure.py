@@ -124,6 +124,7 @@ BAD: list[tuple[str, dict[str, Any], str]] = [
         {"nodes": {**NODES, "C": (0, 0, 1)}},
         "nodes.C: the node is attached to nothing",
     ),
+    ("ends at one node", {"beams": [beam(nodes=("A", "A"))]}, "beams.AB.nodes: the beam has no"),
     ("no length", {"nodes": {"A": (1, 2, 3), "B": (1, 2, 3)}}, "beams.AB.nodes: the beam has no"),
     ("huge coordinate", {"nodes": {**NODES, "B": (1e200, 0, 0)}}, "beams.AB: its numbers are too"),
     ("unknown node", {"beams": [beam(nodes=("A", "Bee"))]}, r"beams.AB.nodes: unknown node"),

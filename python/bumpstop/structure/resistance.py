@@ -20,31 +20,28 @@ class Resistance:
 
     Parameters
     ----------
-    edges
-        Pairs of nodes that a part joins, (pairs, 2).
     rigid_edges
-        Those of them whose part resists every motion but that of a rigid body.
+        Pairs of nodes joined by a part that resists every motion but that of a rigid body,
+        (pairs, 2).
     strains
         Sums of dofs, one a row, that the other parts resist.
     """
 
-    edges: IndexArray
     rigid_edges: IndexArray
     strains: SparseMatrix
 
 
 def resistance(mesh: Mesh, parts: Sequence[Contribution]) -> Resistance:
     """Return what the stiffness of the parts resists."""
-    edges, rigid_edges = [_NO_EDGES], [_NO_EDGES]
+    rigid_edges = [_NO_EDGES]
     strains = [_NO_STRAINS]
     height = 0
     for part in parts:
         if not part.has("stiffness"):
             continue
-        edges.append(_edges(part.nodes))
         resisted = part.strains(mesh)
         if resisted is None:
-            rigid_edges.append(edges[-1])
+            rigid_edges.append(_edges(part.nodes))
             continue
         element, row, column = np.nonzero(resisted)
         elements, rows, _ = resisted.shape
@@ -54,7 +51,6 @@ def resistance(mesh: Mesh, parts: Sequence[Contribution]) -> Resistance:
         height += rows * elements
     rows_of, columns_of, values = (np.concatenate(some) for some in zip(*strains, strict=True))
     return Resistance(
-        edges=np.concatenate(edges),
         rigid_edges=np.concatenate(rigid_edges),
         strains=SparseMatrix.from_triplets(
             (height, 6 * len(mesh.names)), rows_of, columns_of, values

@@ -17,39 +17,26 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.structure.assembly import Contribution
-from bumpstop.structure.echelon import null_space
 from bumpstop.structure.elimination import Freedom
 from bumpstop.structure.frame import rigid_motions
 from bumpstop.structure.graph import components
 from bumpstop.structure.mesh import Mesh
+from bumpstop.structure.null_combinations import null_combinations
 from bumpstop.structure.resistance import resistance
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
 __all__ = ["rigid_fields"]
-
-_MOST_MOTIONS = 1500
-"""Most motions of bodies that hang together and are told apart with dense matrices."""
 
 _CANCELLED = 1e-9
 """A sum this small beside the sizes of its terms is rounding."""
 
 
 def rigid_fields(mesh: Mesh, parts: Sequence[Contribution], freedom: Freedom) -> FloatArray:
-    """Return all motions on all dofs that strain nothing and that are free, (dofs, motions).
-
-    Where too many small bodies hang together (the nodes of a large truss), each connected
-    piece is taken for one body; mechanisms inside it are then not found.
-    """
+    """Return all motions on all dofs that strain nothing and that are free, (dofs, motions)."""
     resisted = resistance(mesh, parts)
-    ties = _ties(freedom)
-    for edges in (resisted.rigid_edges, resisted.edges):
-        motions = _body_motions(mesh, edges, freedom)
-        rows = _relative_product(ties.stacked(resisted.strains), motions)
-        groups = _groups(rows)
-        if max(map(len, groups), default=0) <= _MOST_MOTIONS:
-            break
-    weights = [_null_vectors(rows, group) for group in groups]
-    return motions @ np.hstack([np.zeros((motions.shape[1], 0)), *weights])
+    motions = _body_motions(mesh, resisted.rigid_edges, freedom)
+    zeros = _relative_product(_ties(freedom).stacked(resisted.strains), motions)
+    return motions @ null_combinations(zeros)
 
 
 def _ties(freedom: Freedom) -> SparseMatrix:
@@ -104,23 +91,6 @@ def _relative_product(zeros: SparseMatrix, motions: SparseMatrix) -> SparseMatri
     np.maximum.at(row_sizes, product.rows, sizes)
     relative = replace(product, values=product.values / row_sizes[product.rows])
     return relative.where(np.abs(product.values) > _CANCELLED * sizes)
-
-
-def _groups(rows: SparseMatrix) -> list[IndexArray]:
-    """Return the motions that rows couple to each other."""
-    size = rows.shape[1]
-    together = components(size + rows.shape[0], rows.columns, size + rows.rows)
-    groups = [np.array([vertex for vertex in group if vertex < size]) for group in together]
-    return [group for group in groups if len(group)]
-
-
-def _null_vectors(rows: SparseMatrix, group: IndexArray) -> FloatArray:
-    """Return weights of all motions that rows allow those of one group, (motions, vectors)."""
-    _, matrix = rows.dense_columns(group)
-    allowed = null_space(matrix)
-    weights = np.zeros((rows.shape[1], allowed.shape[1]))
-    weights[group] = allowed
-    return weights
 
 
 def _power_of_two(size: float) -> float:

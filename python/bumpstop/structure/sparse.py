@@ -180,16 +180,14 @@ class SparseMatrix:
 
     def dense_columns(self, numbers: IndexArray) -> tuple[IndexArray, FloatArray]:
         """Return a few columns: the rows where they have entries, and the entries there."""
-        place = np.full(self.shape[1], -1, dtype=np.intp)
-        place[numbers] = np.arange(len(numbers))
-        column = place[self.columns]
-        inside = column >= 0
-        used = np.zeros(self.shape[0], dtype=bool)
-        used[self.rows[inside]] = True
-        row = np.cumsum(used) - 1
-        dense = np.zeros((np.count_nonzero(used), len(numbers)))
-        dense[row[self.rows[inside]], column[inside]] = self.values[inside]
-        return np.flatnonzero(used), dense
+        lengths = np.diff(self.starts)[numbers]
+        column = np.repeat(np.arange(len(numbers)), lengths)
+        first = np.repeat(self.starts[numbers] - (np.cumsum(lengths) - lengths), lengths)
+        entries = first + np.arange(len(first))
+        rows, row = np.unique(self.rows[entries], return_inverse=True)
+        dense = np.zeros((len(rows), len(numbers)))
+        dense[row, column] = self.values[entries]
+        return rows, dense
 
     def to_dense(self) -> FloatArray:
         """Return the matrix as a NumPy array."""
