@@ -64,11 +64,21 @@ class LineMesh:
         InputError
             If there is no such group, or a property cannot be used.
         """
+        arguments: BeamProperties = {"elements": 1, **properties}
+        return [Beam(line, nodes=self.lines[line], **arguments) for line in self.lines_of(group)]
+
+    def lines_of(self, group: str) -> tuple[str, ...]:
+        """Return the lines of a group.
+
+        Raises
+        ------
+        InputError
+            If there is no such group.
+        """
         if group not in self.line_groups:
             hint = did_you_mean(group, self.line_groups)
             raise InputError("unknown group of lines", key="group", value=group, hint=hint)
-        arguments: BeamProperties = {"elements": 1, **properties}
-        return [Beam(line, nodes=self.lines[line], **arguments) for line in self.line_groups[group]]
+        return self.line_groups[group]
 
     def nodes_of(self, names: Iterable[str]) -> list[str]:
         """Return nodes by their own names and those of groups, each once.

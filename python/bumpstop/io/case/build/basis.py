@@ -44,6 +44,10 @@ def _model(case: CaseFile, folder: Path) -> LinearModel:
         from bumpstop.io.case.build.matrices import built_matrices
 
         return built_matrices(case, case.matrices, folder)
+    if case.mesh is not None:
+        from bumpstop.io.case.build.mesh import built_meshed
+
+        return built_meshed(case, case.mesh, folder)
     if case.parts:
         from bumpstop.io.case.build.assembly import built_assembly
 

@@ -22,6 +22,7 @@ _OF_STRUCTURES = (
     "constraint_shapes",
     "base_shapes",
     "static_damping",
+    "rigid_modes",
 )
 """Keys of [basis] that ask for matrices."""
 _KEYS = {"modes": "basis.modes", "damping": "basis.damping", "modal_mass": "modes.modal_mass"}

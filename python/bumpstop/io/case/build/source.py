@@ -15,6 +15,7 @@ __all__ = ["SOURCES", "require_one_source"]
 
 _BESIDE = {
     "nodes": (*StructureTables.model_fields, "basis"),
+    "mesh": (*(table for table in StructureTables.model_fields if table != "nodes"), "basis"),
     "matrices": ("supports", "basis"),
     "modes": ("basis",),
     "parts": ("components", "materials", "sections", "supports", "joints", "basis"),
@@ -42,7 +43,7 @@ def require_one_source(case: CaseFile, tables: Sequence[str]) -> None:
     """
     sources = [source for source in _BESIDE if getattr(case, source)]
     if not sources:
-        hint = "name points there, or place [parts], or take [matrices] or [modes] from files"
+        hint = "name points there, place [parts], or take a [mesh], [matrices] or [modes]"
         raise InputError("is missing", key="nodes", hint=hint)
     if len(sources) > 1:
         names = " and ".join(f"[{source}]" for source in sources)

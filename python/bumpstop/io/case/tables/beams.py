@@ -10,17 +10,12 @@ from bumpstop.io.case.fields.words import BeamEnds, Name, choice
 from bumpstop.io.case.tables.table import Table
 from bumpstop.structure.elements import THEORIES
 
-__all__ = ["BeamTable"]
+__all__ = ["BeamPropertiesTable", "BeamTable"]
 
 
-class BeamTable(Table):
-    """A straight beam between two nodes, cut into equal elements.
+class BeamPropertiesTable(Table):
+    """What a beam is, wherever it is."""
 
-    Its inner nodes are called ``AB.1``, ``AB.2``, ...; a point anywhere along it is written
-    ``"AB@0.462 m"``.
-    """
-
-    nodes: BeamEnds = Field(description="Its first and last node")
     elements: Count = Field(description="Number of elements")
     theory: Annotated[str, choice(*THEORIES)] = Field(
         default="timoshenko", description="Beam theory; a bar resists stretching alone"
@@ -42,3 +37,13 @@ class BeamTable(Table):
     spin: AngularRate = Field(
         default=0.0, description="Constant speed of rotation about local x, in rad/s"
     )
+
+
+class BeamTable(BeamPropertiesTable):
+    """A straight beam between two nodes, cut into equal elements.
+
+    Its inner nodes are called ``AB.1``, ``AB.2``, ...; a point anywhere along it is written
+    ``"AB@0.462 m"``.
+    """
+
+    nodes: BeamEnds = Field(description="Its first and last node")

@@ -12,6 +12,7 @@ from bumpstop.io.case.tables.initial import InitialTable
 from bumpstop.io.case.tables.joints import JointTable
 from bumpstop.io.case.tables.loads import LoadTable
 from bumpstop.io.case.tables.matrices import MatricesTable
+from bumpstop.io.case.tables.mesh import MeshTable
 from bumpstop.io.case.tables.modes import ModesTable
 from bumpstop.io.case.tables.outputs import OutputTable
 from bumpstop.io.case.tables.parts import PartTable
@@ -31,6 +32,9 @@ class CaseFile(StructureTables):
 
     title: Text = Field(default="", description="What the case is, in one line")
     description: Text = Field(default="", description="More about it, in any number of lines")
+    mesh: MeshTable | None = Field(
+        default=None, description="Instead of nodes: those of a mesh, with beams on its lines"
+    )
     matrices: MatricesTable | None = Field(
         default=None, description="Instead of nodes: matrices from files"
     )
