@@ -207,7 +207,7 @@ def test_parts_do_not_go_with_a_structure_beside_them(load: Load) -> None:
         load(SHARED + structure + rest + '[[joints]]\nnodes = ["a.A", "b.B"]\n')
     with pytest.raises(bs.InputError, match=r"components: does not go with \[nodes\]"):
         load(SHARED + structure + rest + COLUMN)
-    with pytest.raises(bs.InputError, match=r"nodes: is missing; name points there, or place"):
+    with pytest.raises(bs.InputError, match=r"nodes: is missing; name points there, place"):
         load(SHARED + rest)
     empty = '[components.c]\ninterface = ["A"]\nmodes = 1\n[parts.p]\ncomponent = "c"\n'
     with pytest.raises(bs.InputError, match=r"components.c.nodes: is missing; give nodes, matri"):
