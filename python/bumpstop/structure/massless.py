@@ -203,7 +203,8 @@ def _null_motions(matrix: SparseMatrix) -> SparseMatrix:
 
 def _null_vectors(matrix: FloatArray) -> FloatArray:
     """Return what a small matrix takes to zero, each vector of largest component one."""
-    scale = 1.0 / np.sqrt(np.abs(matrix.diagonal()))
+    diagonal = np.abs(matrix.diagonal())
+    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
     motions = scale[:, np.newaxis] * null_space(matrix * np.outer(scale, scale))
     largest: FloatArray = np.abs(motions).max(axis=0, initial=0.0)
     return motions / largest
