@@ -160,8 +160,7 @@ impl<L: Law> History<L> {
         check_length("the row", row, self.problem.system.modes())?;
         if let Record::Phases(record) = &self.record {
             self.check_times(times)?;
-            let values = record.project(row, times);
-            return Ok(values.iter().map(|v| v[derivative as usize]).collect());
+            return Ok(record.project(row, times, derivative as usize));
         }
         let modal = self.motion(times, derivative)?;
         let product = |q: &[f64]| q.iter().zip(row).map(|(q, r)| q * r).sum();

@@ -131,7 +131,7 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
                 let known = own.as_ref().iter().zip(past.as_ref()).zip(load.as_ref());
                 let both = q.as_mut().iter_mut().zip(before.as_mut());
                 for ((q, before), ((own, past), load)) in both.zip(known) {
-                    let next = *past * *before + *load + *own * *q;
+                    let next = own.mul_add(*q, past.mul_add(*before, *load));
                     (*before, *q) = (*q, next);
                 }
                 for ((law, contact), force) in laws.iter().zip(contacts.iter()).zip(&*forces) {
@@ -139,7 +139,7 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
                     for (pushes, force) in along {
                         let force = Lanes::<I>::of(*force);
                         for (q, push) in q.as_mut().iter_mut().zip(pushes.as_ref()) {
-                            *q += *push * force;
+                            *q = push.mul_add(force, *q);
                         }
                     }
                 }
@@ -205,10 +205,10 @@ impl<I: Instructions, B: Count> Contact<I, B> {
     fn free(&self, c: usize, q: &[Lanes<I>], before: &[Lanes<I>]) -> f64 {
         let mut total = Lanes::<I>::of(0.0);
         for (past, before) in self.past[c].as_ref().iter().zip(before) {
-            total += *past * *before;
+            total = past.mul_add(*before, total);
         }
         for (own, q) in self.own[c].as_ref().iter().zip(q) {
-            total += *own * *q;
+            total = own.mul_add(*q, total);
         }
         total.total() + self.load[c]
     }

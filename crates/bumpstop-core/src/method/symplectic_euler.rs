@@ -109,19 +109,19 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
                 for ((v, q), ((w2, c), p)) in
                     (v.as_mut().iter_mut().zip(q.as_ref())).zip(known.zip(load.as_ref()))
                 {
-                    *v += (*p - (*w2 * *q + *c * *v)) * step;
+                    *v = p.sub_mul(*w2, *q).sub_mul(*c, *v).mul_add(step, *v);
                 }
                 for ((law, contact), force) in laws.iter().zip(contacts.iter()).zip(&*forces) {
                     let along = contact.rows.iter().zip(force).take(law.rows().len());
                     for (row, force) in along {
                         let impulse = Lanes::<I>::of(dt * force);
                         for (v, row) in v.as_mut().iter_mut().zip(row.as_ref()) {
-                            *v += *row * impulse;
+                            *v = row.mul_add(impulse, *v);
                         }
                     }
                 }
                 for (q, v) in q.as_mut().iter_mut().zip(v.as_ref()) {
-                    *q += *v * step;
+                    *q = v.mul_add(step, *q);
                 }
                 for (block, q) in row.iter_mut().zip(q.as_ref()) {
                     q.to_block(block);
@@ -169,10 +169,10 @@ impl<I: Instructions, B: Count> Contact<I, B> {
     fn free(&self, c: usize, q: &[Lanes<I>], v: &[Lanes<I>]) -> f64 {
         let mut total = Lanes::<I>::of(0.0);
         for (factor, v) in self.of_velocity[c].as_ref().iter().zip(v) {
-            total += *factor * *v;
+            total = factor.mul_add(*v, total);
         }
         for (factor, q) in self.of_position[c].as_ref().iter().zip(q) {
-            total += *factor * *q;
+            total = factor.mul_add(*q, total);
         }
         total.total() + self.load[c]
     }

@@ -52,7 +52,7 @@ impl<T: Number> Complex<T> {
     /// Squared modulus.
     #[inline(always)]
     pub fn norm2(self) -> T {
-        self.re * self.re + self.im * self.im
+        self.re.mul_add(self.re, self.im * self.im)
     }
 
     /// Modulus (the moduli met here neither overflow nor underflow when squared).
@@ -71,15 +71,48 @@ impl<T: Number> Complex<T> {
     /// `exp(self)`.
     #[inline(always)]
     pub fn exp(self) -> Self {
+        self.exp_and_size().0
+    }
+
+    /// `exp(self)` and its modulus.
+    #[inline(always)]
+    pub fn exp_and_size(self) -> (Self, T) {
         let size = self.re.exp();
         let (sin, cos) = self.im.sin_cos();
-        Self::new(size * cos, size * sin)
+        (Self::new(size * cos, size * sin), size)
     }
 
     /// Real part of the product `self * other`.
     #[inline(always)]
     pub fn real_product(self, other: Self) -> T {
-        self.re * other.re - self.im * other.im
+        (self.re * other.re).sub_mul(self.im, other.im)
+    }
+
+    /// `Re (self other) + term`
+    #[inline(always)]
+    pub fn add_real_product(self, other: Self, term: T) -> T {
+        self.re.mul_add(other.re, term).sub_mul(self.im, other.im)
+    }
+
+    /// `self other + term`
+    #[inline(always)]
+    pub fn mul_add(self, other: Self, term: Self) -> Self {
+        Self::new(
+            self.re
+                .mul_add(other.re, term.re)
+                .sub_mul(self.im, other.im),
+            self.re
+                .mul_add(other.im, self.im.mul_add(other.re, term.im)),
+        )
+    }
+
+    /// `self factor + term` with a real factor.
+    #[inline(always)]
+    pub fn scale_add(self, factor: T, term: Self) -> Self {
+        Self::new(
+            self.re.mul_add(factor, term.re),
+            self.im.mul_add(factor, term.im),
+        )
     }
 }
 
@@ -111,8 +144,8 @@ impl<T: Number> Mul for Complex<T> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self::new(
-            self.re * other.re - self.im * other.im,
-            self.re * other.im + self.im * other.re,
+            (self.re * other.re).sub_mul(self.im, other.im),
+            self.re.mul_add(other.im, self.im * other.re),
         )
     }
 }

@@ -91,6 +91,15 @@ impl Number for Dual {
             slope: 0.0,
         }
     }
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self {
+            value: self.value.mul_add(factor.value, term.value),
+            slope: (self.slope * factor.value + self.value * factor.slope) + term.slope,
+        }
+    }
+    fn sub_mul(self, a: Self, b: Self) -> Self {
+        (-a).mul_add(b, self)
+    }
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain(root, 0.5 / root)

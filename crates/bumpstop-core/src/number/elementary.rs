@@ -2,7 +2,8 @@
 //!
 //! Both are good to about one unit in the last place, and being the same few IEEE operations
 //! everywhere they give the same bits everywhere. The range reductions follow W. J. Cody and
-//! W. Waite, Software Manual for the Elementary Functions, 1980; the polynomials are Taylor's,
+//! W. Waite, Software Manual for the Elementary Functions, 1980, with fused operations in place
+//! of split constants; the polynomials are Taylor's,
 //! long enough that what they cut off lies below half a unit in the last place.
 
 use super::Bits;
@@ -13,8 +14,11 @@ const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52
 /// The same, with the exponent's bias in its low bits.
 const ROUND_BIASED: f64 = ROUND + 1023.0;
 
-const LN2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fef0_0000); // 33 bits
-const LN2_LOW: f64 = 7.440_617_110_012_397e-11;
+// The logarithm of two and half pi, as their nearest numbers and what these lack. The product with
+// a whole number is subtracted without rounding by the fused operation: what is left is a multiple
+// of 2^-53 below one.
+const LN2: [f64; 2] = [std::f64::consts::LN_2, 2.319_046_813_846_299_6e-17];
+const HALF_PI: [f64; 2] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17];
 
 /// `1/n!` from n = 2 on.
 const EXP: [f64; 12] = [
@@ -63,9 +67,9 @@ fn polynomial<T: Bits, const N: usize>(x: T, coefficients: &[f64; N]) -> T {
     let low = four(x, x2, coefficients, 0);
     let middle = four(x, x2, coefficients, 4);
     if N <= 8 {
-        low + x4 * middle
+        x4.mul_add(middle, low)
     } else {
-        low + x4 * (middle + x4 * four(x, x2, coefficients, 8))
+        x4.mul_add(x4.mul_add(four(x, x2, coefficients, 8), middle), low)
     }
 }
 
@@ -73,7 +77,7 @@ fn polynomial<T: Bits, const N: usize>(x: T, coefficients: &[f64; N]) -> T {
 #[inline(always)]
 fn four<T: Bits, const N: usize>(x: T, x2: T, c: &[f64; N], n: usize) -> T {
     if n + 2 < N {
-        two(x, c, n) + two(x, c, n + 2) * x2
+        two(x, c, n + 2).mul_add(x2, two(x, c, n))
     } else {
         two(x, c, n)
     }
@@ -83,7 +87,7 @@ fn four<T: Bits, const N: usize>(x: T, x2: T, c: &[f64; N], n: usize) -> T {
 #[inline(always)]
 fn two<T: Bits, const N: usize>(x: T, c: &[f64; N], n: usize) -> T {
     if n + 1 < N {
-        T::of(c[n]) + T::of(c[n + 1]) * x
+        x.mul_add(T::of(c[n + 1]), T::of(c[n]))
     } else {
         T::of(c[n])
     }
@@ -95,38 +99,31 @@ fn two<T: Bits, const N: usize>(x: T, c: &[f64; N], n: usize) -> T {
 pub(super) fn exp<T: Bits>(x: T) -> T {
     let lowest = T::of(-700.0);
     let x = x.select_less(lowest, lowest, x);
-    let shifted = x * T::of(std::f64::consts::LOG2_E) + T::of(ROUND);
+    let shifted = x.mul_add(T::of(std::f64::consts::LOG2_E), T::of(ROUND));
     let whole = shifted - T::of(ROUND);
-    let r = (x - whole * T::of(LN2_HIGH)) - whole * T::of(LN2_LOW);
-    let value = T::of(1.0) + (r + r * r * polynomial(r, &EXP));
+    let r = x
+        .sub_mul(whole, T::of(LN2[0]))
+        .sub_mul(whole, T::of(LN2[1]));
+    let value = T::of(1.0) + (r * r).mul_add(polynomial(r, &EXP), r);
     // The biased whole number sits in the low bits; moved up it is the power of two.
     let power = (whole + T::of(ROUND_BIASED)).shift_left::<52>();
     let highest = T::of(709.0);
     highest.select_less(x, T::of(f64::INFINITY), value * power)
 }
 
-// Half pi in three pieces of 24 bits and a remainder: products with whole numbers below 2^29
-// are exact.
-const HALF_PI: [f64; 4] = [
-    f64::from_bits(0x3ff9_21fb_4000_0000),
-    f64::from_bits(0x3e74_442d_0000_0000),
-    f64::from_bits(0x3cf8_4698_8000_0000),
-    f64::from_bits(0x3b78_cc51_701b_839a),
-];
-
-/// Sine and cosine; the reduction is exact up to 8e8 radians.
+/// Sine and cosine; the reduction is good to 1e-24 up to 8e8 radians.
 #[inline(always)]
 pub(super) fn sin_cos<T: Bits>(x: T) -> (T, T) {
-    let shifted = x * T::of(std::f64::consts::FRAC_2_PI) + T::of(ROUND);
+    let shifted = x.mul_add(T::of(std::f64::consts::FRAC_2_PI), T::of(ROUND));
     let whole = shifted - T::of(ROUND);
-    let r = (((x - whole * T::of(HALF_PI[0])) - whole * T::of(HALF_PI[1]))
-        - whole * T::of(HALF_PI[2]))
-        - whole * T::of(HALF_PI[3]);
+    let r = x
+        .sub_mul(whole, T::of(HALF_PI[0]))
+        .sub_mul(whole, T::of(HALF_PI[1]));
     let z = r * r;
-    let sin = r + r * (z * polynomial(z, &SIN));
+    let sin = r.mul_add(z * polynomial(z, &SIN), r);
     let half = T::of(0.5) * z;
     let one = T::of(1.0) - half;
-    let cos = one + (((T::of(1.0) - one) - half) + z * z * polynomial(z, &COS));
+    let cos = one + (z * z).mul_add(polynomial(z, &COS), (T::of(1.0) - one) - half);
     // The quadrant is in the low bits of `shifted`: odd ones swap, the second bit changes signs.
     let odd = shifted.shift_left::<63>().xor(T::of(1.0));
     let zero = T::of(0.0);

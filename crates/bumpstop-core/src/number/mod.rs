@@ -19,8 +19,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A real number of the formulas.
 ///
-/// Every operation is a fixed sequence of IEEE 754 operations without fused multiply-add,
-/// so that all implementations agree to the bit on every machine.
+/// Every operation is a fixed sequence of IEEE 754 operations, fused where the name says so and
+/// nowhere else, so that all implementations agree to the bit on every machine.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -33,6 +33,10 @@ pub trait Number:
 {
     /// The constant `x`.
     fn of(x: f64) -> Self;
+    /// `self factor + term`, rounded once.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
+    /// `self - a b`, rounded once.
+    fn sub_mul(self, a: Self, b: Self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// Absolute value.
@@ -61,6 +65,14 @@ impl Number for f64 {
     #[inline(always)]
     fn of(x: f64) -> Self {
         x
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        f64::mul_add(self, factor, term)
+    }
+    #[inline(always)]
+    fn sub_mul(self, a: Self, b: Self) -> Self {
+        f64::mul_add(-a, b, self)
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

@@ -3,13 +3,14 @@
 
 use super::jet::Verdict;
 use super::phase::{Phase, Phases};
+use super::rows::{ComplexBlock, RealBlock};
 use super::signal::{Instant, Signal};
-use super::spectrum::{Rows, Spectrum};
-use crate::number::{Complex, Instructions, LANES, Lanes, Number};
+use super::spectrum::Spectrum;
+use crate::number::{Instructions, Lanes, Number};
 
 /// Cells after which the exponentials are computed afresh, so that products do not pile up
 /// rounding; the signals' rounding bound counts on it.
-const CELLS_BETWEEN_ANCHORS: usize = 32;
+pub(crate) const CELLS_BETWEEN_ANCHORS: usize = 8;
 
 /// The smallest cell, relative to the time since the start of the phase (or to the typical
 /// period where that is longer): below it nothing can be told from rounding.
@@ -17,6 +18,30 @@ const SMALLEST_CELL: f64 = 1e-13;
 
 /// Most iterations when a bracketed zero is refined; bisection alone needs about sixty.
 const REFINEMENTS: usize = 100;
+
+/// A Halley step below this part of its bracket is the last.
+const SMALL_STEP: f64 = 2e-6;
+
+/// Where a zero is, and a guess of it.
+#[derive(Debug, Clone, Copy)]
+struct Bracket {
+    left: f64,
+    right: f64,
+    guess: f64,
+}
+
+impl Bracket {
+    /// The guess is used where it lies inside.
+    #[inline(always)]
+    fn new(left: f64, right: f64, guess: f64) -> Self {
+        let inside = guess > left && guess < right;
+        Self {
+            left,
+            right,
+            guess: if inside { guess } else { 0.5 * (left + right) },
+        }
+    }
+}
 
 /// A guard that is watched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,26 +71,32 @@ pub(crate) struct Certificate {
     pub missed: f64,
 }
 
-/// Exponentials over the length of a cell and of its half.
+/// Exponentials over half a cell and over a whole one, and what a whole one multiplies sizes with.
 #[derive(Debug, Clone, Default)]
 struct Level {
     filled: bool,
-    factor: Rows,
-    growth: Vec<f64>,
+    half: Vec<ComplexBlock>,
+    whole: Vec<ComplexBlock>,
+    growth: Vec<RealBlock>,
 }
 
-/// The walker and its tables; made once a run.
+/// The tables of one spectrum, by level.
+#[derive(Debug, Clone, Default)]
+struct Tables {
+    levels: Vec<Level>,
+}
+
+/// The walker, with its tables for each spectrum of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Walk {
-    levels: Vec<Level>,
+    tables: Vec<Tables>,
     longest: f64,
-    moduli: Vec<f64>,
-    left: Rows,
-    sizes: Vec<f64>,
-    bound: Vec<f64>,
-    middle: Rows,
-    right: Rows,
-    probe: Rows,
+    left: Vec<ComplexBlock>,
+    sizes: Vec<RealBlock>,
+    bound: Vec<RealBlock>,
+    middle: Vec<ComplexBlock>,
+    right: Vec<ComplexBlock>,
+    probe: Vec<ComplexBlock>,
 }
 
 /// What is walked along.
@@ -102,6 +133,16 @@ enum Outcome {
 }
 
 impl Walk {
+    /// Forgets all tables: the walker turns to another run, whose longest cell is given.
+    pub(crate) fn start(&mut self, longest: f64) {
+        self.longest = longest;
+        for tables in &mut self.tables {
+            for level in &mut tables.levels {
+                level.filled = false;
+            }
+        }
+    }
+
     /// The first zero of any signal on the path, if there is one.
     #[inline(always)]
     pub(crate) fn first_zero<I: Instructions>(
@@ -115,9 +156,7 @@ impl Walk {
         let mut since_anchor = 0;
         let mut successes = 0;
         while time < path.limit {
-            for level in [level, level + 1] {
-                self.fill::<I>(spectrum, level);
-            }
+            self.fill::<I>(&path, level);
             let width = self.width(level);
             certificate.cells += 1;
             match self.judge::<I>(&path, time, level, certificate) {
@@ -125,9 +164,7 @@ impl Walk {
                     time += width;
                     since_anchor += 1;
                     std::mem::swap(&mut self.left, &mut self.right);
-                    for (size, growth) in self.sizes.iter_mut().zip(&self.levels[level].growth) {
-                        *size *= growth;
-                    }
+                    self.grow::<I>(&path, level);
                     if since_anchor == CELLS_BETWEEN_ANCHORS {
                         self.anchor::<I>(spectrum, time);
                         since_anchor = 0;
@@ -154,41 +191,27 @@ impl Walk {
     #[inline(always)]
     fn prepare<I: Instructions>(&mut self, path: &Path<'_>) -> usize {
         let spectrum = path.spectrum();
-        let n = spectrum.exponents();
-        for level in &mut self.levels {
-            level.filled = false;
+        let blocks = spectrum.lambda.len();
+        for rows in [
+            &mut self.left,
+            &mut self.middle,
+            &mut self.right,
+            &mut self.probe,
+        ] {
+            rows.resize(blocks, ComplexBlock::ONE);
         }
-        if self.moduli.len() != n {
-            self.moduli = vec![0.0; n];
-            self.sizes = vec![0.0; n];
-            self.bound = vec![0.0; n];
-            for rows in [
-                &mut self.left,
-                &mut self.middle,
-                &mut self.right,
-                &mut self.probe,
-            ] {
-                *rows = Rows::zeros(1, n);
-            }
-        }
-        for o in (0..n).step_by(LANES) {
-            spectrum
-                .lambda
-                .lanes::<I>(0, o)
-                .norm()
-                .store(&mut self.moduli[o..]);
-            self.left.put(0, o, Complex::real(Lanes::<I>::of(1.0)));
-            Lanes::<I>::of(1.0).store(&mut self.sizes[o..]);
-        }
+        self.bound.resize(blocks, RealBlock::ONE);
+        self.sizes.resize(blocks, RealBlock::ONE);
         if path.from > 0.0 {
             self.anchor::<I>(spectrum, path.from);
+        } else {
+            self.left.fill(ComplexBlock::ONE);
+            self.sizes.fill(RealBlock::ONE);
         }
-        let pace = path
-            .signals
-            .iter()
-            .map(|s| s.pace(spectrum))
-            .fold(0.0f64, f64::max);
-        self.longest = path.limit - path.from;
+        let mut pace = 0.0f64;
+        for signal in path.signals {
+            pace = pace.max(signal.pace(spectrum));
+        }
         let mut level = 0;
         while self.width(level) * pace > 2.0 && level < 1000 {
             level += 1;
@@ -203,39 +226,55 @@ impl Walk {
     }
 
     #[inline(always)]
-    fn fill<I: Instructions>(&mut self, spectrum: &Spectrum, level: usize) {
-        if self.levels.len() <= level {
-            self.levels.resize_with(level + 1, Level::default);
+    fn fill<I: Instructions>(&mut self, path: &Path<'_>, level: usize) {
+        if self.tables.len() <= path.phase.spectrum {
+            (self.tables).resize_with(path.phase.spectrum + 1, Tables::default);
         }
-        let width = self.width(level);
-        let n = spectrum.exponents();
-        let table = &mut self.levels[level];
-        if table.filled {
+        let levels = &mut self.tables[path.phase.spectrum].levels;
+        if levels.len() <= level {
+            levels.resize_with(level + 1, Level::default);
+        }
+        let half = 0.5 * self.width(level);
+        let Level {
+            filled,
+            half: to_half,
+            whole,
+            growth,
+        } = &mut self.tables[path.phase.spectrum].levels[level];
+        if *filled {
             return;
         }
-        if table.growth.len() != n {
-            table.factor = Rows::zeros(1, n);
-            table.growth = vec![0.0; n];
+        let lambda = &path.spectrum().lambda;
+        to_half.resize(lambda.len(), ComplexBlock::ONE);
+        whole.resize(lambda.len(), ComplexBlock::ONE);
+        growth.resize(lambda.len(), RealBlock::ONE);
+        let half = Lanes::<I>::of(half);
+        for (b, lambda) in lambda.iter().enumerate() {
+            let (factor, size) = lambda.lanes::<I>().scale(half).exp_and_size();
+            to_half[b].put(factor);
+            whole[b].put(factor * factor);
+            growth[b].put(size * size);
         }
-        spectrum.exponentials::<I>(width, &mut table.factor);
-        for o in (0..n).step_by(LANES) {
-            table
-                .factor
-                .lanes::<I>(0, o)
-                .norm()
-                .store(&mut table.growth[o..]);
+        *filled = true;
+    }
+
+    /// Carries the sizes over a cell.
+    #[inline(always)]
+    fn grow<I: Instructions>(&mut self, path: &Path<'_>, level: usize) {
+        let growth = &self.tables[path.phase.spectrum].levels[level].growth;
+        for (size, growth) in self.sizes.iter_mut().zip(growth) {
+            size.put(size.lanes::<I>() * growth.lanes());
         }
-        table.filled = true;
     }
 
     #[inline(always)]
     fn anchor<I: Instructions>(&mut self, spectrum: &Spectrum, time: f64) {
-        spectrum.exponentials::<I>(time, &mut self.left);
-        for o in (0..spectrum.exponents()).step_by(LANES) {
-            self.left
-                .lanes::<I>(0, o)
-                .norm()
-                .store(&mut self.sizes[o..]);
+        let time = Lanes::<I>::of(time);
+        let rows = self.left.iter_mut().zip(&mut self.sizes);
+        for (lambda, (left, sizes)) in spectrum.lambda.iter().zip(rows) {
+            let (exponential, size) = lambda.lanes::<I>().scale(time).exp_and_size();
+            left.put(exponential);
+            sizes.put(size);
         }
     }
 
@@ -250,35 +289,42 @@ impl Walk {
     ) -> Outcome {
         let spectrum = path.spectrum();
         let width = self.width(level);
-        for o in (0..spectrum.exponents()).step_by(LANES) {
-            let left = self.left.lanes::<I>(0, o);
-            self.middle
-                .put(0, o, left * self.levels[level + 1].factor.lanes(0, o));
-            self.right
-                .put(0, o, left * self.levels[level].factor.lanes(0, o));
-            let growth = Lanes::<I>::load(&self.levels[level].growth[o..]).max(Lanes::<I>::of(1.0));
-            (Lanes::<I>::load(&self.sizes[o..]) * growth).store(&mut self.bound[o..]);
+        let Level {
+            half,
+            whole,
+            growth,
+            ..
+        } = &self.tables[path.phase.spectrum].levels[level];
+        for b in 0..spectrum.lambda.len() {
+            let left = self.left[b].lanes::<I>();
+            self.middle[b].put(left * half[b].lanes());
+            self.right[b].put(left * whole[b].lanes());
+            let growth = growth[b].lanes::<I>().max(Lanes::of(1.0));
+            self.bound[b].put(self.sizes[b].lanes() * growth);
         }
         let smallest =
             SMALLEST_CELL * (time + width).max(self.width(0).min(1.0 / spectrum.fastest));
         let mut first: Option<Crossing> = None;
         for watched in 0..path.signals.len() {
+            let middle = time + 0.5 * width;
             let bracket = match self.look::<I>(path, watched, time, width, certificate) {
                 Sight::Clear => None,
                 Sight::AtOnce => return Outcome::Found(Crossing { watched, time }),
                 Sight::Unclear if width >= smallest => return Outcome::Halve,
                 // A departure that cannot be told from rounding is taken as one.
                 Sight::Unclear if path.departs(watched, time) => None,
-                Sight::End | Sight::Unclear => Some((time, time + width)),
-                Sight::Valley(curvature) => {
-                    self.valley::<I>(path, watched, (time, time + width), curvature)
+                Sight::Unclear => Some(Bracket::new(time, time + width, middle)),
+                Sight::End(guess) => Some(Bracket::new(time, time + width, middle + guess)),
+                Sight::Valley { curvature, guess } => {
+                    let bracket = Bracket::new(time, time + width, middle + guess);
+                    self.valley::<I>(path, watched, bracket, curvature)
                 }
             };
-            let bracket = bracket.filter(|(_, right)| {
-                *right < time + width || self.ends_below::<I>(path, watched, *right)
-            });
-            if let Some((left, right)) = bracket {
-                let time = self.refine::<I>(path, watched, left, right);
+            if let Some(bracket) = bracket
+                && (bracket.right < time + width
+                    || self.ends_below::<I>(path, watched, bracket.right))
+            {
+                let time = self.refine::<I>(path, watched, bracket);
                 if first.is_none_or(|f| time < f.time) {
                     first = Some(Crossing { watched, time });
                 }
@@ -307,12 +353,15 @@ impl Walk {
             exponentials: &self.middle,
         };
         let (phases, phase) = (path.phases, path.phase);
-        let jet = signal.jet::<I>(phases, phase, &at, &self.bound, &self.moduli, radius);
+        let jet = signal.jet::<I>(phases, phase, &at, &self.bound, radius);
         certificate.missed = certificate.missed.max(jet.rounding);
         match jet.verdict(radius) {
             Verdict::Clear => Sight::Clear,
-            Verdict::EndDecides => Sight::End,
-            Verdict::Convex(curvature) => Sight::Valley(curvature),
+            Verdict::EndDecides => Sight::End(jet.descent()),
+            Verdict::Convex(curvature) => Sight::Valley {
+                curvature,
+                guess: jet.descent(),
+            },
             Verdict::Open => Sight::Unclear,
         }
     }
@@ -330,16 +379,13 @@ impl Walk {
             time,
             exponentials: &self.left,
         };
-        let mut jet = signal.jet::<I>(
-            path.phases,
-            path.phase,
-            &at,
-            &self.bound,
-            &self.moduli,
-            width,
-        );
-        let full = signal.values::<I>(path.phases, path.phase, &at);
-        let noise = signal.rate_rounding(path.phases, path.phase, &self.moduli);
+        let mut jet = signal.jet::<I>(path.phases, path.phase, &at, &self.bound, width);
+        let full = if time == 0.0 {
+            signal.values_at_start(path.phases, path.phase)
+        } else {
+            signal.values::<I>(path.phases, path.phase, &at)
+        };
+        let noise = signal.rate_rounding(path.phases, path.phase);
         jet.slope = if full[1].abs() <= noise[0] {
             0.0
         } else {
@@ -377,13 +423,13 @@ impl Walk {
         &mut self,
         path: &Path<'_>,
         watched: usize,
-        (left, right): (f64, f64),
+        bracket: Bracket,
         curvature: f64,
-    ) -> Option<(f64, f64)> {
+    ) -> Option<Bracket> {
         let signal = &path.signals[watched];
-        let rounding = signal.rounding(right);
-        let (mut low, mut high) = (left, right);
-        let mut t = 0.5 * (left + right);
+        let rounding = signal.rounding(bracket.right);
+        let (mut low, mut high) = (bracket.left, bracket.right);
+        let mut t = 0.5 * (low + high);
         for _ in 0..REFINEMENTS {
             let values = self.probe::<I>(path, signal, t);
             // A convex function lies above every such parabola.
@@ -392,7 +438,7 @@ impl Walk {
                 return None;
             }
             if values[0] < -rounding {
-                return Some((left, t));
+                return Some(Bracket::new(bracket.left, t, bracket.guess));
             }
             if values[1] > 0.0 {
                 high = t;
@@ -407,7 +453,7 @@ impl Walk {
             }
             t = next;
         }
-        Some((low, right))
+        Some(Bracket::new(low, bracket.right, bracket.guess))
     }
 
     /// Value and derivatives at any time.
@@ -429,12 +475,11 @@ impl Walk {
         &mut self,
         path: &Path<'_>,
         watched: usize,
-        left: f64,
-        right: f64,
+        bracket: Bracket,
     ) -> f64 {
         let signal = &path.signals[watched];
-        let (mut low, mut high) = (left, right);
-        let mut t = 0.5 * (left + right);
+        let (mut low, mut high) = (bracket.left, bracket.right);
+        let mut t = bracket.guess;
         for _ in 0..REFINEMENTS {
             let [value, slope, curvature] = self.probe::<I>(path, signal, t);
             if value > 0.0 {
@@ -452,7 +497,7 @@ impl Walk {
             let step = (next - t).abs();
             t = next;
             // The error after a Halley step goes with the cube of the step.
-            if step < 1e-6 * (right - left) && halley == next
+            if step < SMALL_STEP * (bracket.right - bracket.left) && halley == next
                 || high - low <= 2.0 * f64::EPSILON * t
             {
                 break;
@@ -468,10 +513,10 @@ enum Sight {
     Clear,
     /// It is negative as soon as the path begins.
     AtOnce,
-    /// At most one zero; the right end tells.
-    End,
-    /// Convex, with at least this curvature.
-    Valley(f64),
+    /// At most one zero; the right end tells. With a guess of it, from the middle.
+    End(f64),
+    /// Convex, with at least this curvature; with a guess of the first zero.
+    Valley { curvature: f64, guess: f64 },
     /// Nothing is proved.
     Unclear,
 }

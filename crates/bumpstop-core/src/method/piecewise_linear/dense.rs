@@ -1,10 +1,12 @@
 //! Spectra by the dense eigenproblem of the state matrix: any damping, any number of laws.
 
+use super::grouping::Acting;
+use super::rows::set_entry;
 use super::secular::Coupling;
-use super::spectrum::{Acting, Member, Rows, Spectrum};
+use super::spectrum::{Member, Spectrum};
 use crate::error::{Error, Result};
-use crate::law::{Law, State};
-use crate::number::{Complex, padded};
+use crate::law::Law;
+use crate::number::{Complex, LANES};
 use crate::problem::Problem;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
@@ -15,20 +17,20 @@ struct Coupled {
     damping: Mat<f64>,
 }
 
-/// Spectrum of several laws that act together.
-pub(crate) fn spectrum<L: Law>(
+/// Couples the modes that several laws push together.
+pub(crate) fn couple<L: Law>(
+    spectrum: &mut Spectrum,
     problem: &Problem<L>,
-    states: &[State],
     acting: &[Acting],
-) -> Result<Spectrum> {
+) -> Result<()> {
     let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
     let modes: Vec<usize> = (0..omega2.len())
-        .filter(|&i| acting.iter().any(|a| a.row[i] != 0.0))
+        .filter(|&i| acting.iter().any(|a| a.row(problem)[i] != 0.0))
         .collect();
     let n = modes.len();
     let sum = |r: usize, c: usize, factor: fn(&Acting) -> f64| -> f64 {
         (acting.iter())
-            .map(|a| factor(a) * a.row[modes[r]] * a.row[modes[c]])
+            .map(|a| factor(a) * a.row(problem)[modes[r]] * a.row(problem)[modes[c]])
             .sum()
     };
     let diagonal = |values: &[f64], r: usize, c: usize| if r == c { values[modes[r]] } else { 0.0 };
@@ -40,7 +42,6 @@ pub(crate) fn spectrum<L: Law>(
             diagonal(damping, r, c) + sum(r, c, |a| a.damping)
         }),
     };
-    let mut spectrum = Spectrum::empty(states);
     spectrum.members = (modes.iter().enumerate())
         .map(|(group, &mode)| Member {
             mode,
@@ -52,13 +53,15 @@ pub(crate) fn spectrum<L: Law>(
     spectrum.combinations = n;
     spectrum.group_damping = modes.iter().map(|&i| damping[i]).collect();
     let forces = Mat::from_fn(n, 1, |i, _| {
-        let constant: f64 = acting.iter().map(|a| a.constant * a.row[modes[i]]).sum();
+        let constant: f64 = acting
+            .iter()
+            .map(|a| a.constant * a.row(problem)[modes[i]])
+            .sum();
         problem.forcing.forces()[modes[i]] + constant
     });
     let rest = coupled.stiffness.full_piv_lu().solve(&forces);
     spectrum.at_rest = (0..n).map(|i| rest[(i, 0)]).collect();
-    coupled.solve_into(&mut spectrum)?;
-    Ok(spectrum)
+    coupled.solve_into(spectrum)
 }
 
 /// Spectrum of one law whose modes are too heavily damped for the secular path.
@@ -100,22 +103,17 @@ impl Coupled {
             .solve(Mat::<c64>::identity(2 * n, 2 * n));
         let values = eigen.S().column_vector();
         let kept: Vec<usize> = (0..2 * n).filter(|&j| values[j].im >= 0.0).collect();
-        let stride = padded(kept.len());
-        spectrum.coupled_stride = stride;
-        spectrum.lambda = Rows::zeros(1, stride);
-        spectrum.shape = Rows::zeros(n, stride);
-        spectrum.left_position = Rows::zeros(n, stride);
-        spectrum.left_velocity = Rows::zeros(n, stride);
+        spectrum.make_room(kept.len().div_ceil(LANES));
         for (column, &j) in kept.iter().enumerate() {
             let value = values[j];
             let factor = if value.im > 0.0 { 2.0 } else { 1.0 };
-            spectrum.lambda.set(0, column, complex(value));
+            set_entry(&mut spectrum.lambda, column, complex(value));
             for i in 0..n {
                 let left = |c: usize| complex(inverse[(j, c)]).scale(factor);
-                spectrum.shape.set(i, column, complex(right[(i, j)]));
-                spectrum.left_position.set(i, column, left(i));
+                set_entry(spectrum.shape_mut(i), column, complex(right[(i, j)]));
+                set_entry(spectrum.left_position_mut(i), column, left(i));
                 let velocity = left(i + n).scale(1.0 / scale);
-                spectrum.left_velocity.set(i, column, velocity);
+                set_entry(spectrum.left_velocity_mut(i), column, velocity);
             }
         }
         Ok(())

@@ -9,7 +9,9 @@
 //! ```
 
 use super::phase::{Phase, Phases, Workspace};
-use super::spectrum::{Rows, Spectrum};
+use super::rows::{ComplexBlock, Rows, entry};
+use super::single_mode::Rates;
+use super::spectrum::{Single, Spectrum};
 use crate::law::{Law, Piece};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
@@ -22,50 +24,55 @@ struct Form {
 }
 
 impl Form {
-    /// The form of `sum_g factor_g (Re sum_j rows_gj r_j)^2`.
+    /// The form of `sum_g factor_g (Re sum_j row_gj r_j)^2`.
     #[inline(always)]
-    fn new<I: Instructions>(spectrum: &Spectrum, rows: &Rows, factors: &[f64]) -> Self {
-        let stride = spectrum.coupled_stride;
+    fn new<I: Instructions>(
+        spectrum: &Spectrum,
+        rows: &[&[ComplexBlock]],
+        factors: &[f64],
+    ) -> Self {
+        let width = spectrum.coupled_width;
         let mut form = Self {
-            with: Rows::zeros(stride, stride),
-            with_conjugate: Rows::zeros(stride, stride),
+            with: Rows::zeros(width * LANES, width),
+            with_conjugate: Rows::zeros(width * LANES, width),
         };
-        for j in 0..stride {
-            let own = spectrum.lambda.get(0, j);
+        for j in 0..width * LANES {
+            let own = entry(&spectrum.lambda, j);
             if own.re == 0.0 && own.im == 0.0 {
                 continue;
             }
-            for o in (0..stride).step_by(LANES) {
+            for b in 0..width {
                 let (mut with, mut conjugate) =
                     (Complex::<Lanes<I>>::zero(), Complex::<Lanes<I>>::zero());
-                for (g, factor) in factors.iter().enumerate() {
-                    let mine = rows.get(g, j).scale(0.5 * factor);
+                for (row, factor) in rows.iter().zip(factors) {
+                    let mine = entry(row, j).scale(0.5 * factor);
                     let mine = Complex::new(Lanes::<I>::of(mine.re), Lanes::<I>::of(mine.im));
-                    let other = rows.lanes(g, o);
+                    let other = row[b].lanes();
                     with += mine * other;
                     conjugate += mine * other.conj();
                 }
                 let own = Complex::new(Lanes::<I>::of(own.re), Lanes::<I>::of(own.im));
-                let other = spectrum.lambda.lanes(0, o);
-                form.with.put(j, o, with * recip_or_zero(own + other));
+                let other = spectrum.lambda[b].lanes();
+                form.with.row_mut(j)[b].put(with * recip_or_zero(own + other));
                 let between = conjugate * recip_or_zero(own + other.conj());
-                form.with_conjugate.put(j, o, between);
+                form.with_conjugate.row_mut(j)[b].put(between);
             }
         }
         form
     }
 
     #[inline(always)]
-    fn value<I: Instructions>(&self, rates: &Rows) -> f64 {
-        let stride = self.with.stride;
+    fn value<I: Instructions>(&self, rates: &[ComplexBlock]) -> f64 {
+        let width = self.with.width();
         let mut total = 0.0;
-        for j in 0..stride {
-            let own = rates.get(0, j);
+        for j in 0..width * LANES {
+            let own = entry(rates, j);
             let mut inner = Complex::<Lanes<I>>::zero();
-            for o in (0..stride).step_by(LANES) {
-                let other = rates.lanes(0, o);
-                inner += self.with.lanes(j, o) * other;
-                inner += self.with_conjugate.lanes(j, o) * other.conj();
+            let rows = self.with.row(j).iter().zip(self.with_conjugate.row(j));
+            for (other, (with, conjugate)) in rates.iter().zip(rows) {
+                let other = other.lanes();
+                inner = with.lanes().mul_add(other, inner);
+                inner = conjugate.lanes().mul_add(other.conj(), inner);
             }
             total += own.re * inner.re.total() - own.im * inner.im.total();
         }
@@ -108,13 +115,15 @@ impl Dissipation {
                 first_view += law.rows().len();
                 let piece = law.piece(*state).unwrap_or(Piece::FREE);
                 let factor = piece.damping[0][0];
-                (factor != 0.0 && spectrum.groups > 0)
-                    .then(|| Form::new::<I>(spectrum, &spectrum.views[view].exponents, &[factor]))
+                (factor != 0.0 && spectrum.groups > 0).then(|| {
+                    Form::new::<I>(spectrum, &[&spectrum.views[view].exponents], &[factor])
+                })
             })
             .collect();
+        let shapes: Vec<&[ComplexBlock]> =
+            (0..spectrum.groups).map(|g| spectrum.shape(g)).collect();
         Self {
-            modal: damped
-                .then(|| Form::new::<I>(spectrum, &spectrum.shape, &spectrum.group_damping)),
+            modal: damped.then(|| Form::new::<I>(spectrum, &shapes, &spectrum.group_damping)),
             laws,
         }
     }
@@ -133,20 +142,26 @@ impl Dissipation {
             modal: 0.0,
             laws: vec![0.0; self.laws.len()],
         };
-        if self.modal.is_some() || self.laws.iter().any(Option::is_some) {
-            for (instant, sign) in [(0.0, -1.0), (t, 1.0)] {
-                phases.turn::<I>(phase, instant, work);
-                if let Some(form) = &self.modal {
-                    total.modal += sign * form.value::<I>(&work.rate);
-                }
-                for (law, form) in total.laws.iter_mut().zip(&self.laws) {
-                    *law += sign * form.as_ref().map_or(0.0, |f| f.value::<I>(&work.rate));
-                }
+        phases.turn::<I>(phase, 0.0, work);
+        work.rate_at_start.clone_from(&work.rate);
+        phases.turn::<I>(phase, t, work);
+        let Workspace {
+            rate,
+            rate_at_start,
+            ..
+        } = work;
+        if let Some(form) = &self.modal {
+            total.modal = form.value::<I>(rate) - form.value::<I>(rate_at_start);
+        }
+        for (law, form) in total.laws.iter_mut().zip(&self.laws) {
+            if let Some(form) = form {
+                *law = form.value::<I>(rate) - form.value::<I>(rate_at_start);
             }
         }
         for (index, single) in spectrum.singles.iter().enumerate() {
             let (x0, v0) = phases.kept(phase, index);
-            let dissipated = single.motion.dissipation(x0, v0, t);
+            let rates = [rates_of(single, rate_at_start), rates_of(single, rate)];
+            let dissipated = single.motion.dissipation(x0, v0, t, rates);
             total.modal += single.modal_share * dissipated;
             if let Some(law) = single.law {
                 total.laws[law] += (1.0 - single.modal_share) * dissipated;
@@ -154,4 +169,13 @@ impl Dissipation {
         }
         total
     }
+}
+
+/// The rates of a single motion's own exponentials.
+fn rates_of(single: &Single, rates: &[ComplexBlock]) -> Rates {
+    let mut own = [Complex::zero(); 2];
+    for (i, own) in own.iter_mut().enumerate().take(single.motion.exponents().1) {
+        *own = entry(rates, single.at + i);
+    }
+    own
 }

@@ -3,11 +3,10 @@
 
 use super::advance::Start;
 use super::phase::{Phase, Phases};
-use super::signal::{Instant, Signal};
-use super::spectrum::Rows;
+use super::signal::Signal;
 use crate::history::Event;
 use crate::law::{COORDINATES, Guard, Law, Local, State};
-use crate::number::{Complex, Instructions};
+use crate::number::Instructions;
 use crate::problem::Problem;
 
 /// The guards of all laws in their present states.
@@ -17,7 +16,6 @@ pub(crate) struct Watch {
     pub guards: Vec<(usize, usize)>,
     pub signals: Vec<Signal>,
     pub starts: Vec<Start>,
-    at_start: Rows,
 }
 
 impl Watch {
@@ -33,10 +31,6 @@ impl Watch {
     ) {
         let states = phases.states(phase);
         let views = &phases.spectra[phase.spectrum].views;
-        let exponents = phases.spectra[phase.spectrum].exponents();
-        if self.at_start.stride != exponents {
-            self.at_start = ones(exponents);
-        }
         self.guards.clear();
         self.starts.clear();
         let mut first_view = 0;
@@ -53,11 +47,7 @@ impl Watch {
                 signal.set::<I>(phases, phase, &views[first_view..], &guard, remaining);
                 let same = fired.is_some_and(|(law, f)| law == index && shares_zero(&f, &guard));
                 let zero = same || {
-                    let instant = Instant {
-                        time: 0.0,
-                        exponentials: &self.at_start,
-                    };
-                    let value = signal.value::<I>(phases, phase, &instant);
+                    let [value, ..] = signal.values_at_start(phases, phase);
                     value.abs() <= signal.rounding(0.0) || value < 0.0
                 };
                 self.starts
@@ -111,49 +101,32 @@ pub(crate) fn event_of<L: Law>(
 
 /// The laws' states at t = 0, from the motion that the structure would have without them.
 pub(crate) fn initial_states<L: Law>(problem: &Problem<L>) -> Vec<State> {
-    let (motion, sizes) = free_derivatives(problem);
-    (problem.laws.iter().enumerate())
-        .map(|(index, law)| law.initial_state(&motion[index], &sizes[index]))
-        .collect()
+    let mut states = Vec::with_capacity(problem.laws.len());
+    for law in &problem.laws {
+        let (motion, sizes) = free_derivatives(problem, law);
+        states.push(law.initial_state(&motion, &sizes));
+    }
+    states
 }
-
-type Derivatives = [Local<f64>; 4];
 
 /// Local coordinates and their first three derivatives at t = 0 without the laws, and the sizes
 /// below which each counts as zero.
-fn free_derivatives<L: Law>(problem: &Problem<L>) -> (Vec<Derivatives>, Vec<[f64; 4]>) {
+fn free_derivatives<L: Law>(problem: &Problem<L>, law: &L) -> ([Local<f64>; 4], [f64; 4]) {
     let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
     let forces = problem.forcing.forces();
-    let modal: Vec<[f64; 4]> = (0..omega2.len())
-        .map(|i| {
+    let mut motion = [[0.0; COORDINATES]; 4];
+    let mut sizes = [0.0; 4];
+    for (coordinate, row) in law.rows().iter().enumerate() {
+        for i in 0..omega2.len() {
             let (q, v) = (problem.displacement[i], problem.velocity[i]);
             let a = forces[i] - damping[i] * v - omega2[i] * q;
-            [q, v, a, -damping[i] * a - omega2[i] * v]
-        })
-        .collect();
-    let mut all = Vec::new();
-    let mut sizes = Vec::new();
-    for law in &problem.laws {
-        let mut motion = [[0.0; COORDINATES]; 4];
-        let mut size = [0.0; 4];
-        for (coordinate, row) in law.rows().iter().enumerate() {
-            for (order, size) in size.iter_mut().enumerate() {
-                let terms = row.iter().zip(&modal).map(|(r, m)| r * m[order]);
-                motion[order][coordinate] = terms.clone().sum();
-                *size += 8.0 * f64::EPSILON * terms.map(f64::abs).sum::<f64>();
+            let derivatives = [q, v, a, -damping[i] * a - omega2[i] * v];
+            for (order, derivative) in derivatives.iter().enumerate() {
+                let term = row[i] * derivative;
+                motion[order][coordinate] += term;
+                sizes[order] += 8.0 * f64::EPSILON * term.abs();
             }
         }
-        all.push(motion);
-        sizes.push(size);
     }
-    (all, sizes)
-}
-
-/// Exponentials at the start of a phase: all one.
-pub(crate) fn ones(exponents: usize) -> Rows {
-    let mut rows = Rows::zeros(1, exponents);
-    for j in 0..exponents {
-        rows.set(0, j, Complex::real(1.0));
-    }
-    rows
+    (motion, sizes)
 }

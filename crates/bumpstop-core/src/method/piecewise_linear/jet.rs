@@ -71,6 +71,14 @@ impl Jet {
         Verdict::Open
     }
 
+    /// Where the parabola through the jet comes down to zero, from the middle of the cell; not a
+    /// number where it does not.
+    #[inline(always)]
+    pub fn descent(&self) -> f64 {
+        let discriminant = self.slope * self.slope - 2.0 * self.curvature * self.value;
+        2.0 * self.value / (discriminant.sqrt() - self.slope)
+    }
+
     /// Judges the first cell of a phase, of width h, for a guard that starts at zero; this jet
     /// stands at the left end, its slope holding the fast part too.
     #[inline(always)]

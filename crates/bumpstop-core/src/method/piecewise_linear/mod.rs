@@ -10,13 +10,16 @@ mod advance;
 mod dense;
 mod dissipation;
 mod event;
+mod grouping;
 mod jet;
 mod phase;
 mod record;
+mod rows;
 mod secular;
 mod signal;
 mod single_mode;
 mod spectrum;
+mod view;
 
 pub use jet::{Jet, Verdict};
 pub use record::PhaseRecord;
@@ -25,12 +28,12 @@ use super::{Observer, observe};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
 use crate::law::{Guard, Law, State};
-use crate::number::{Instructions, Vectorised, dispatch};
+use crate::number::{Instructions, Plain, Vectorised, dispatch};
 use crate::problem::Problem;
 use advance::{Certificate, Path, Walk};
 use event::Watch;
 use phase::{Phases, Workspace};
-use spectrum::{Secular, Spectrum};
+use spectrum::{Secular, Spectrum, Workbench};
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -77,6 +80,7 @@ struct Scratch {
     walk: Walk,
     watch: Watch,
     work: Workspace,
+    bench: Workbench,
 }
 
 thread_local! {
@@ -98,7 +102,7 @@ impl<'a, L: Law> Run<'a, L> {
     fn new(problem: &'a Problem<L>) -> Self {
         Self {
             problem,
-            phases: Phases::default(),
+            phases: Phases::empty(),
             events: Vec::new(),
             certificate: Certificate::default(),
             scratch: SCRATCH.take().unwrap_or_default(),
@@ -111,6 +115,7 @@ impl<'a, L: Law> Run<'a, L> {
         let mut states = event::initial_states(problem);
         let (mut q, mut v) = (problem.displacement.clone(), problem.velocity.clone());
         let mut time = 0.0;
+        self.scratch.walk.start(problem.duration);
         let mut fired: Option<(usize, Guard)> = None;
         let mut at_once = 0;
         loop {
@@ -174,13 +179,22 @@ impl<'a, L: Law> Run<'a, L> {
             .begin::<I>(time, spectrum, q, v, &mut self.scratch.work);
         match begun {
             Err(Error::Defective { .. }) if self.phases.spectra[spectrum].is_secular => {
-                let dense = Spectrum::new::<I, L>(self.problem, states, Secular::Skip)?;
-                let replacement = self.phases.add_spectrum(dense);
+                let replacement = self.dense_spectrum(states)?;
                 self.phases
                     .begin::<I>(time, replacement, q, v, &mut self.scratch.work)
             }
             begun => begun,
         }
+    }
+
+    /// A spectrum for the given states that does not come from the secular equation. Rare, so
+    /// that plain arithmetic, which gives the same bits, does.
+    #[cold]
+    fn dense_spectrum(&mut self, states: &[State]) -> Result<usize> {
+        let room = self.phases.spare_spectrum();
+        let bench = &mut self.scratch.bench;
+        let dense = Spectrum::new::<Plain, L>(self.problem, states, Secular::Skip, bench, room)?;
+        Ok(self.phases.add_spectrum(dense))
     }
 
     /// The number of the spectrum for the given states, the latest one made.
@@ -190,7 +204,9 @@ impl<'a, L: Law> Run<'a, L> {
         match known {
             Some(known) => Ok(known),
             None => {
-                let fresh = Spectrum::new::<I, L>(self.problem, states, Secular::Try)?;
+                let room = self.phases.spare_spectrum();
+                let bench = &mut self.scratch.bench;
+                let fresh = Spectrum::new::<I, L>(self.problem, states, Secular::Try, bench, room)?;
                 Ok(self.phases.add_spectrum(fresh))
             }
         }

@@ -1,9 +1,11 @@
 //! Phases: stretches of time in which no law switches, kept as amplitudes of exponentials.
 
-use super::spectrum::{Rows, Single, Spectrum, Subject};
+use super::rows::{ComplexBlock, entry, set_entry};
+use super::spectrum::{Single, Spectrum, Subject};
 use crate::error::{Error, Result};
 use crate::law::State;
-use crate::number::{Complex, Instructions, LANES, Lanes, Number};
+use crate::number::{Instructions, LANES, Lanes, Number};
+use std::cell::Cell;
 
 /// The largest error, relative to the state's largest part, with which the amplitudes of a
 /// phase may give back the state they were made from. Beyond it the eigenvectors are too close
@@ -27,35 +29,71 @@ pub(crate) struct Phase {
 pub(crate) struct Phases {
     pub spectra: Vec<Spectrum>,
     pub list: Vec<Phase>,
-    amplitude_re: Vec<f64>,
-    amplitude_im: Vec<f64>,
+    amplitudes: Vec<ComplexBlock>,
     kept: Vec<f64>,
+    /// Spectra of an earlier run, for their memory.
+    spare: Vec<Spectrum>,
 }
+
+thread_local! {
+    /// Memory of a run that nobody needs any more: to ask for it anew would take as long as a
+    /// short run itself.
+    static SPARE: Cell<Option<Phases>> = const { Cell::new(None) };
+}
+
+/// Most numbers that are kept for another run.
+const MOST_SPARE: usize = 100_000;
 
 /// Room for the evaluation of a phase, used again and again.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Workspace {
     /// `a exp(lambda t)` and its rate.
-    pub z: Rows,
-    pub rate: Rows,
+    pub z: Vec<ComplexBlock>,
+    pub rate: Vec<ComplexBlock>,
+    pub rate_at_start: Vec<ComplexBlock>,
     position: Vec<f64>,
     velocity: Vec<f64>,
     own_position: Vec<f64>,
     own_velocity: Vec<f64>,
     lack_position: Vec<f64>,
     lack_velocity: Vec<f64>,
+    given_position: Vec<f64>,
+    given_velocity: Vec<f64>,
 }
 
 impl Workspace {
-    fn fit(&mut self, exponents: usize) {
-        if self.z.stride != exponents {
-            self.z = Rows::zeros(1, exponents);
-            self.rate = Rows::zeros(1, exponents);
-        }
+    #[inline(always)]
+    fn fit(&mut self, blocks: usize) {
+        self.z.resize(blocks, ComplexBlock::ZERO);
+        self.rate.resize(blocks, ComplexBlock::ZERO);
     }
 }
 
 impl Phases {
+    /// No phases, in the memory of an earlier run if there is some.
+    pub(crate) fn empty() -> Self {
+        let mut phases = SPARE.take().unwrap_or_default();
+        phases.spare.append(&mut phases.spectra);
+        phases.list.clear();
+        phases.amplitudes.clear();
+        phases.kept.clear();
+        phases
+    }
+
+    /// Leaves the memory to the next run on this thread.
+    pub(crate) fn leave(&mut self) {
+        let vectors: usize = self.spectra.iter().map(Spectrum::numbers).sum();
+        let numbers = vectors + self.amplitudes.len() * 2 * LANES + self.kept.len();
+        if numbers <= MOST_SPARE {
+            SPARE.set(Some(std::mem::take(self)));
+        }
+    }
+
+    /// Memory for a spectrum.
+    pub(crate) fn spare_spectrum(&mut self) -> Spectrum {
+        self.spare.pop().unwrap_or_default()
+    }
+
     /// Starts a phase from a state.
     ///
     /// # Errors
@@ -73,11 +111,12 @@ impl Phases {
         let phase = Phase {
             start,
             spectrum,
-            amplitudes: self.amplitude_re.len(),
+            amplitudes: self.amplitudes.len(),
             kept: self.kept.len(),
         };
         let which = &self.spectra[spectrum];
-        work.fit(which.exponents());
+        work.fit(which.lambda.len());
+        work.z.fill(ComplexBlock::ZERO);
         work.position.resize(which.combinations, 0.0);
         work.velocity.resize(which.combinations, 0.0);
         which.gather(q, &mut work.position);
@@ -85,8 +124,10 @@ impl Phases {
         if which.groups > 0 {
             work.solve_amplitudes::<I>(which, start)?;
         }
-        subtract(which, q, &work.position, &mut work.own_position);
-        subtract(which, v, &work.velocity, &mut work.own_velocity);
+        if !which.singles.is_empty() {
+            subtract(which, q, &work.position, &mut work.own_position);
+            subtract(which, v, &work.velocity, &mut work.own_velocity);
+        }
         for single in &which.singles {
             let (x0, v0) = match single.subject {
                 Subject::Mode(mode) => (work.own_position[mode], work.own_velocity[mode]),
@@ -94,16 +135,12 @@ impl Phases {
             };
             self.kept.extend([x0, v0]);
             let amplitudes = single.motion.amplitudes(x0, v0);
-            for (i, a) in amplitudes
-                .iter()
-                .enumerate()
-                .take(single.motion.exponents().1)
-            {
-                work.z.set(0, single.at + i, *a);
+            let count = single.motion.exponents().1;
+            for (i, amplitude) in amplitudes[..count].iter().enumerate() {
+                set_entry(&mut work.z, single.at + i, *amplitude);
             }
         }
-        self.amplitude_re.extend_from_slice(&work.z.re);
-        self.amplitude_im.extend_from_slice(&work.z.im);
+        self.amplitudes.extend_from_slice(&work.z);
         self.list.push(phase);
         Ok(())
     }
@@ -116,9 +153,9 @@ impl Phases {
 
     /// Amplitudes of a phase.
     #[inline(always)]
-    pub(crate) fn amplitudes(&self, phase: Phase) -> (&[f64], &[f64]) {
-        let range = phase.amplitudes..phase.amplitudes + self.spectra[phase.spectrum].exponents();
-        (&self.amplitude_re[range.clone()], &self.amplitude_im[range])
+    pub(crate) fn amplitudes(&self, phase: Phase) -> &[ComplexBlock] {
+        let blocks = self.spectra[phase.spectrum].lambda.len();
+        &self.amplitudes[phase.amplitudes..][..blocks]
     }
 
     /// Initial position and velocity of a single motion.
@@ -132,14 +169,14 @@ impl Phases {
     #[inline(always)]
     pub(crate) fn turn<I: Instructions>(&self, phase: Phase, t: f64, work: &mut Workspace) {
         let spectrum = &self.spectra[phase.spectrum];
-        let (re, im) = self.amplitudes(phase);
-        work.fit(spectrum.exponents());
-        for o in (0..spectrum.exponents()).step_by(LANES) {
-            let lambda = spectrum.lambda.lanes::<I>(0, o);
-            let amplitude = Complex::new(Lanes::<I>::load(&re[o..]), Lanes::<I>::load(&im[o..]));
-            let z = amplitude * lambda.scale(Lanes::<I>::of(t)).exp();
-            work.z.put(0, o, z);
-            work.rate.put(0, o, z * lambda);
+        let amplitudes = self.amplitudes(phase);
+        work.fit(amplitudes.len());
+        let t = Lanes::<I>::of(t);
+        for (b, (lambda, amplitude)) in spectrum.lambda.iter().zip(amplitudes).enumerate() {
+            let lambda = lambda.lanes::<I>();
+            let z = amplitude.lanes() * lambda.scale(t).exp();
+            work.z[b].put(z);
+            work.rate[b].put(z * lambda);
         }
     }
 
@@ -157,9 +194,10 @@ impl Phases {
         self.turn::<I>(phase, t, work);
         work.position.resize(spectrum.combinations, 0.0);
         work.velocity.resize(spectrum.combinations, 0.0);
-        for g in 0..spectrum.groups {
-            work.position[g] = spectrum.at_rest[g] + spectrum.group_sum::<I>(g, &work.z);
-            work.velocity[g] = spectrum.group_sum::<I>(g, &work.rate);
+        spectrum.group_sums::<I>(&work.z, &mut work.position);
+        spectrum.group_sums::<I>(&work.rate, &mut work.velocity);
+        for (position, rest) in work.position.iter_mut().zip(&spectrum.at_rest) {
+            *position += rest;
         }
         q.fill(0.0);
         v.fill(0.0);
@@ -195,8 +233,8 @@ impl Phases {
         let p = single.motion.polynomial(x0, v0);
         let (mut x, mut v) = (p[0] + t * (p[1] + t * p[2]), p[1] + 2.0 * t * p[2]);
         for i in 0..single.motion.exponents().1 {
-            x += work.z.re[single.at + i];
-            v += work.rate.re[single.at + i];
+            x += entry(&work.z, single.at + i).re;
+            v += entry(&work.rate, single.at + i).re;
         }
         (x, v)
     }
@@ -229,6 +267,8 @@ impl Workspace {
         let (mut size, mut size_rate) = (0.0f64, 0.0f64);
         self.lack_position.clear();
         self.lack_velocity.clear();
+        self.given_position.resize(spectrum.groups, 0.0);
+        self.given_velocity.resize(spectrum.groups, 0.0);
         for g in 0..spectrum.groups {
             let (rest, velocity) = (spectrum.at_rest[g], self.velocity[g]);
             self.lack_position.push(self.position[g] - rest);
@@ -236,9 +276,7 @@ impl Workspace {
             size = size.max(self.position[g].abs()).max(rest.abs());
             size_rate = size_rate.max(velocity.abs());
         }
-        spectrum.amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.rate);
-        self.z.re[..].copy_from_slice(&self.rate.re);
-        self.z.im[..].copy_from_slice(&self.rate.im);
+        spectrum.add_amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.z);
         let (lack, lack_rate) = self.find_lack::<I>(spectrum);
         if !(size.is_finite() && size_rate.is_finite()) {
             return Err(Error::Overflow { time });
@@ -250,25 +288,23 @@ impl Workspace {
         if defect.is_nan() || defect > LARGEST_DEFECT {
             return Err(Error::Defective { time, defect });
         }
-        spectrum.amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.rate);
-        for o in (0..spectrum.coupled_stride).step_by(LANES) {
-            let whole = self.z.lanes::<I>(0, o) + self.rate.lanes(0, o);
-            self.z.put(0, o, whole);
-        }
+        spectrum.add_amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.z);
         Ok(())
     }
 
     /// What the amplitudes lack of the state; returns the largest lack of position and velocity.
     #[inline(always)]
     fn find_lack<I: Instructions>(&mut self, spectrum: &Spectrum) -> (f64, f64) {
-        for o in (0..spectrum.coupled_stride).step_by(LANES) {
-            let rate = self.z.lanes::<I>(0, o) * spectrum.lambda.lanes(0, o);
-            self.rate.put(0, o, rate);
+        for b in 0..spectrum.coupled_width {
+            let rate = self.z[b].lanes::<I>() * spectrum.lambda[b].lanes();
+            self.rate[b].put(rate);
         }
+        spectrum.group_sums::<I>(&self.z, &mut self.given_position);
+        spectrum.group_sums::<I>(&self.rate, &mut self.given_velocity);
         let (mut worst, mut worst_rate) = (0.0f64, 0.0f64);
         for g in 0..spectrum.groups {
-            self.lack_position[g] -= spectrum.group_sum::<I>(g, &self.z);
-            self.lack_velocity[g] -= spectrum.group_sum::<I>(g, &self.rate);
+            self.lack_position[g] -= self.given_position[g];
+            self.lack_velocity[g] -= self.given_velocity[g];
             worst = larger(worst, self.lack_position[g].abs());
             worst_rate = larger(worst_rate, self.lack_velocity[g].abs());
         }

@@ -3,13 +3,15 @@
 use super::advance::{Certificate, Path, Start, Walk};
 use super::dissipation::{Dissipated, Dissipation};
 use super::phase::{Phase, Phases, Workspace};
+use super::rows::ComplexBlock;
 use super::signal::{Instant, Signal};
-use super::spectrum::{Rows, View};
+use super::view::View;
 use crate::energy::{self, Ledger};
 use crate::impacts::Impact;
 use crate::law::{COORDINATES, Guard, Law, State, project};
 use crate::number::{Instructions, Plain, Vectorised, dispatch};
 use crate::problem::Problem;
+use std::cell::Cell;
 use std::sync::OnceLock;
 
 /// The phases of a run.
@@ -32,6 +34,12 @@ struct Accounts {
 struct Motion {
     q: Vec<f64>,
     v: Vec<f64>,
+}
+
+impl Drop for PhaseRecord {
+    fn drop(&mut self) {
+        self.phases.leave();
+    }
 }
 
 impl PhaseRecord {
@@ -69,12 +77,13 @@ impl PhaseRecord {
         });
     }
 
-    /// One linear combination of the modal coordinates, with its first two derivatives.
-    pub(crate) fn project(&self, row: &[f64], times: &[f64]) -> Vec<[f64; 3]> {
+    /// A time derivative (0, 1 or 2) of one linear combination of the modal coordinates.
+    pub(crate) fn project(&self, row: &[f64], times: &[f64], order: usize) -> Vec<f64> {
         dispatch(Projection {
             record: self,
             row,
             times,
+            order,
         })
     }
 
@@ -208,43 +217,60 @@ struct Projection<'a> {
     record: &'a PhaseRecord,
     row: &'a [f64],
     times: &'a [f64],
+    order: usize,
 }
 
+/// Room for reading a linear combination, used again and again.
+#[derive(Debug, Default)]
+struct Reader {
+    view: [View; 1],
+    signal: Signal,
+    combined: Vec<f64>,
+    exponentials: Vec<ComplexBlock>,
+}
+
+thread_local! {
+    static READER: Cell<Option<Box<Reader>>> = const { Cell::new(None) };
+}
+
+/// The local coordinate itself.
+const COORDINATE: Guard = Guard {
+    name: "coordinate",
+    constant: 0.0,
+    position: [1.0, 0.0, 0.0],
+    velocity: [0.0; COORDINATES],
+};
+
 impl Vectorised for Projection<'_> {
-    type Output = Vec<[f64; 3]>;
+    type Output = Vec<f64>;
     #[inline(always)]
-    fn run<I: Instructions>(self) -> Vec<[f64; 3]> {
-        const COORDINATE: Guard = Guard {
-            name: "coordinate",
-            constant: 0.0,
-            position: [1.0, 0.0, 0.0],
-            velocity: [0.0; COORDINATES],
-        };
+    fn run<I: Instructions>(self) -> Vec<f64> {
         let phases = &self.record.phases;
-        let mut signal = Signal::default();
-        let mut exponentials = Rows::default();
+        let mut reader = READER.take().unwrap_or_default();
         let mut present = None;
         let mut values = Vec::with_capacity(self.times.len());
         for time in self.times {
             let number = self.record.phase_at(*time);
             let phase = phases.list[number];
             let spectrum = &phases.spectra[phase.spectrum];
+            let Reader {
+                view,
+                signal,
+                combined,
+                exponentials,
+            } = &mut *reader;
             if present != Some(number) {
-                let view = [View::new::<I>(spectrum, self.row)];
-                signal.set::<I>(phases, phase, &view, &COORDINATE, self.record.duration);
-                if exponentials.stride != spectrum.exponents() {
-                    exponentials = Rows::zeros(1, spectrum.exponents());
-                }
+                view[0].set::<I>(spectrum, self.row, combined);
+                signal.set::<I>(phases, phase, view, &COORDINATE, self.record.duration);
+                exponentials.resize(spectrum.lambda.len(), ComplexBlock::ZERO);
                 present = Some(number);
             }
             let time = time - phase.start;
-            spectrum.exponentials::<I>(time, &mut exponentials);
-            let at = Instant {
-                time,
-                exponentials: &exponentials,
-            };
-            values.push(signal.values::<I>(phases, phase, &at));
+            spectrum.exponentials::<I>(time, exponentials);
+            let at = Instant { time, exponentials };
+            values.push(signal.derivative_value::<I>(self.order, phases, phase, &at));
         }
+        READER.set(Some(reader));
         values
     }
 }
@@ -367,12 +393,14 @@ struct ContactReader<'a, L> {
 impl<'a, L: Law> ContactReader<'a, L> {
     fn new(record: &'a PhaseRecord, problem: &'a Problem<L>, law: usize) -> Self {
         let before = &problem.laws[..law];
+        let mut walk = Walk::default();
+        walk.start(record.duration);
         Self {
             record,
             problem,
             law,
             first_view: before.iter().map(|l| l.rows().len()).sum(),
-            walk: Walk::default(),
+            walk,
             work: Workspace::default(),
         }
     }
@@ -485,7 +513,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
         let mut found = Vec::new();
         let mut from = 0.0;
         let mut certificate = Certificate::default();
-        let mut start = if rate.orient::<Plain>(phases, phase) {
+        let mut start = if rate.orient(phases, phase) {
             Start::Positive
         } else {
             Start::Zero

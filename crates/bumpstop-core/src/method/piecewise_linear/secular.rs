@@ -14,7 +14,8 @@
 //! Newton's method on `D_o f` in the complex plane, with the distance from the nearest damped
 //! pole as unknown, so that weakly coupled modes lose no digits.
 
-use crate::number::{Complex, Instructions, LANES, Lanes, Number, padded};
+use super::rows::Rows;
+use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
 /// Corrections of the middle way before damping comes in.
 const MIDDLE_WAY_STEPS: usize = 2;
@@ -35,68 +36,57 @@ pub(crate) struct Coupling {
     pub stop_damping: f64,
 }
 
-/// The roots and what the shapes are made of, in arrays of whole lanes.
-#[derive(Debug, Clone)]
-pub(crate) struct Roots {
-    /// Eigenvalues with positive imaginary part.
-    pub lambda_re: Vec<f64>,
-    pub lambda_im: Vec<f64>,
-    /// `1 / D_i(lambda_j)`, row i of `stride` roots.
-    pub inverse_re: Vec<f64>,
-    pub inverse_im: Vec<f64>,
-    /// Length of a row.
-    pub stride: usize,
-}
-
 impl Coupling {
-    /// All eigenvalues, or `None` where a mode is not lightly enough damped for this path.
+    /// Forgets the modes and takes another spring and damper.
     #[inline(always)]
-    pub(crate) fn solve<I: Instructions>(&self) -> Option<Roots> {
-        let oscillates = |(w2, c): (&f64, &f64)| *w2 == 0.0 && *c == 0.0 || c * c < 2.0 * w2;
-        if !self.omega2.iter().zip(&self.damping).all(oscillates) {
-            return None;
-        }
-        let n = self.omega2.len();
-        let stride = padded(n);
-        let mut roots = Roots {
-            lambda_re: vec![0.0; stride],
-            lambda_im: vec![0.0; stride],
-            inverse_re: vec![0.0; n * stride],
-            inverse_im: vec![0.0; n * stride],
-            stride,
-        };
-        let mut offset = 0;
-        while offset < n {
-            self.solve_lanes::<I>(offset, &mut roots)?;
-            offset += LANES;
-        }
-        Some(roots)
+    pub(crate) fn start(&mut self, stiffness: f64, stop_damping: f64) {
+        self.omega2.clear();
+        self.damping.clear();
+        self.phi.clear();
+        (self.stiffness, self.stop_damping) = (stiffness, stop_damping);
     }
 
-    /// Eight roots at once, from the pole with number `offset` on.
+    /// Adds a mode; returns its number.
     #[inline(always)]
-    fn solve_lanes<I: Instructions>(&self, offset: usize, roots: &mut Roots) -> Option<()> {
-        let bracket = Bracket::<I>::new(self, offset);
+    pub(crate) fn push(&mut self, omega2: f64, damping: f64, phi: f64) -> usize {
+        self.omega2.push(omega2);
+        self.damping.push(damping);
+        self.phi.push(phi);
+        self.phi.len() - 1
+    }
+
+    /// Whether every mode by itself oscillates with light damping, as this path needs.
+    #[inline(always)]
+    pub(crate) fn is_lightly_damped(&self) -> bool {
+        for (w2, c) in self.omega2.iter().zip(&self.damping) {
+            let oscillates = *w2 == 0.0 && *c == 0.0 || c * c < 2.0 * w2;
+            if !oscillates {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Eight eigenvalues with positive imaginary part, those between the poles from number
+    /// `8 block` on; zero in the padding. Row i of `inverses` gets `1 / D_i` of each. `None`
+    /// where the iteration does not settle on oscillating ones.
+    #[inline(always)]
+    pub(crate) fn solve_block<I: Instructions>(
+        &self,
+        block: usize,
+        inverses: &mut Rows,
+    ) -> Option<Complex<Lanes<I>>> {
+        let first = block * LANES;
+        let bracket = Bracket::<I>::new(self, first);
         let (origin, start) = self.undamped(&bracket);
-        let lambda = self.damped(&bracket, origin, start)?;
-        let im = lambda.value.im.numbers();
-        if (im.iter().take(self.omega2.len() - offset)).any(|im| *im <= 0.0) {
-            return None;
+        let lambda = self.damped(&bracket, origin, start, block, inverses)?;
+        let im = lambda.im.numbers();
+        for im in im.iter().take(self.omega2.len() - first) {
+            if *im <= 0.0 {
+                return None;
+            }
         }
-        let keep = |x| {
-            bracket
-                .live
-                .select_less(Lanes::<I>::of(0.0), x, Lanes::<I>::of(0.0))
-        };
-        keep(lambda.value.re).store(&mut roots.lambda_re[offset..]);
-        keep(lambda.value.im).store(&mut roots.lambda_im[offset..]);
-        for i in 0..self.omega2.len() {
-            let inverse = lambda.pole(self, i).recip();
-            let at = i * roots.stride + offset;
-            keep(inverse.re).store(&mut roots.inverse_re[at..]);
-            keep(inverse.im).store(&mut roots.inverse_im[at..]);
-        }
-        Some(())
+        Some(bracket.keep(lambda))
     }
 
     /// The undamped roots `mu = -s^2`: the nearer poles, and the root measured from them.
@@ -109,8 +99,9 @@ impl Coupling {
         for i in 0..self.omega2.len() {
             let z = k * Lanes::<I>::of(self.phi[i] * self.phi[i]);
             let distance = Lanes::<I>::of(self.omega2[i]) - bracket.lower - middle;
-            let other = bracket.outside(i, Lanes::<I>::of(1.0), Lanes::<I>::of(0.0));
-            rest += other * z / distance;
+            rest = bracket
+                .outside(i, z, Lanes::<I>::of(0.0))
+                .mul_add(distance.rough_recip(), rest);
         }
         let (z_low, z_high) = (k * bracket.phi2_lower, k * bracket.phi2_upper);
         let at_middle = rest + (z_high - z_low) / middle;
@@ -127,16 +118,15 @@ impl Coupling {
             for i in 0..self.omega2.len() {
                 let z = k * Lanes::<I>::of(self.phi[i] * self.phi[i]);
                 let distance = Lanes::<I>::of(self.omega2[i]) - origin.omega2 - root;
-                let inverse = Lanes::<I>::of(1.0) / distance;
+                let inverse = distance.rough_recip();
                 let term = z * inverse;
                 let slope = term * inverse;
                 sums.add(self.damping[i], slope);
-                let is_below = bracket.below(i, Lanes::<I>::of(1.0), Lanes::<I>::of(0.0));
-                let is_above = Lanes::<I>::of(1.0) - is_below;
-                below += is_below * term;
-                below_slope += is_below * slope;
-                above += is_above * term;
-                above_slope += is_above * slope;
+                let zero = Lanes::<I>::of(0.0);
+                below += bracket.below(i, term, zero);
+                below_slope += bracket.below(i, slope, zero);
+                above += bracket.below(i, zero, term);
+                above_slope += bracket.below(i, zero, slope);
             }
             let (to_low, to_high) = (low - root, high - root);
             let constant = Lanes::<I>::of(1.0)
@@ -164,7 +154,9 @@ impl Coupling {
         bracket: &Bracket<I>,
         origin: Nearest<I>,
         start: Undamped<I>,
-    ) -> Option<Eigenvalue<I>> {
+        block: usize,
+        inverses: &mut Rows,
+    ) -> Option<Complex<Lanes<I>>> {
         let pole = origin.pole();
         let mu = origin.omega2 + start.root;
         let half = start.damping * Lanes::<I>::of(0.5);
@@ -190,41 +182,64 @@ impl Coupling {
         let c = Lanes::<I>::of(self.stop_damping);
         for _ in 0..NEWTON_STEPS {
             let s = eigenvalue.value;
-            let kappa = Complex::new(k + c * s.re, c * s.im);
+            let kappa = Complex::new(c.mul_add(s.re, k), c * s.im);
+            // sums of phi^2/D, phi^2/D^2 and c phi^2/D^2
             let mut sum = Complex::zero();
-            let mut slope = Complex::zero();
+            let mut squares = Complex::zero();
+            let mut damped = Complex::zero();
+            let near = eigenvalue.near();
             for i in 0..self.omega2.len() {
                 let phi2 = Lanes::<I>::of(self.phi[i] * self.phi[i]);
-                let d = eigenvalue.pole(self, i);
-                let zero = Lanes::<I>::of(0.0);
-                let weight = origin.differs(i, phi2, zero);
-                let norm = origin.differs(i, d.norm2(), Lanes::<I>::of(1.0));
-                let inverse = d.conj().scale(Lanes::<I>::of(1.0) / norm);
-                let term = inverse.scale(weight);
+                let pole = eigenvalue.pole(self, near, i);
+                let inverse = pole.conj().scale(pole.norm2().recip());
+                inverses.row_mut(i)[block].put(inverse);
+                let term = inverse.scale(phi2);
                 sum += term;
-                let rate = Complex::new(
-                    Lanes::<I>::of(2.0) * s.re + Lanes::<I>::of(self.damping[i]),
-                    Lanes::<I>::of(2.0) * s.im,
-                );
-                slope = slope - term * inverse * rate;
+                let square = term * inverse;
+                squares += square;
+                damped = square.scale_add(Lanes::<I>::of(self.damping[i]), damped);
             }
-            let own = eigenvalue.own_pole();
-            let own_rate = Complex::new(
-                Lanes::<I>::of(2.0) * s.re + origin.damping,
-                Lanes::<I>::of(2.0) * s.im,
-            );
-            let inner = (own * sum).plus(origin.phi2);
-            let value = own + kappa * inner;
-            let rate = own_rate + inner.scale(c) + kappa * (own_rate * sum + own * slope);
-            let step = value * rate.recip();
+            // f = 1 + kappa sum,  f' = c sum - kappa (2 s squares + damped)
+            let two = Lanes::<I>::of(2.0);
+            let f = (kappa * sum).plus(Lanes::<I>::of(1.0));
+            let slope = sum.scale(c) - kappa * s.scale(two).mul_add(squares, damped);
+            // Newton's step of D_o f is f / (D_o' f / D_o + f').
+            let own = eigenvalue.own_pole().recip();
+            let own_rate = s.scale(two).plus(origin.damping) * own;
+            let step = f * own_rate.mul_add(f, slope).recip();
             eigenvalue.set(eigenvalue.delta - step);
             let tolerance = Lanes::<I>::of(CONVERGED * CONVERGED) * eigenvalue.delta.norm2();
             let late = tolerance.select_less(step.norm2(), bracket.live, Lanes::<I>::of(0.0));
-            if late.numbers().iter().all(|late| *late == 0.0) {
-                return Some(eigenvalue);
+            if late.numbers() == [0.0; LANES] {
+                self.follow(bracket, &eigenvalue, s, block, inverses);
+                return Some(eigenvalue.value);
             }
         }
         None
+    }
+}
+
+impl Coupling {
+    /// Carries `1 / D_i` along the last Newton step, from `before` to the eigenvalue. With
+    /// `D_i(new) = D_i(old) (1 + x)` the step is so small that `1 - x + x^2` is `1/(1 + x)`.
+    #[inline(always)]
+    fn follow<I: Instructions>(
+        &self,
+        bracket: &Bracket<I>,
+        eigenvalue: &Eigenvalue<I>,
+        before: Complex<Lanes<I>>,
+        block: usize,
+        inverses: &mut Rows,
+    ) {
+        let step = eigenvalue.value - before;
+        let twice = eigenvalue.value + before;
+        let one = Lanes::<I>::of(1.0);
+        for i in 0..self.omega2.len() {
+            let old = inverses.row(i)[block].lanes();
+            let x = step * twice.plus(Lanes::<I>::of(self.damping[i])) * old;
+            let new = old * x.mul_add(x, -x).plus(one);
+            inverses.row_mut(i)[block].put(bracket.keep(new));
+        }
     }
 }
 
@@ -280,6 +295,16 @@ impl<I: Instructions> Bracket<I> {
         }
     }
 
+    /// The lanes with a root; zero in the padding.
+    #[inline(always)]
+    fn keep(&self, z: Complex<Lanes<I>>) -> Complex<Lanes<I>> {
+        let zero = Lanes::<I>::of(0.0);
+        Complex::new(
+            self.live.select_less(zero, z.re, zero),
+            self.live.select_less(zero, z.im, zero),
+        )
+    }
+
     #[inline(always)]
     fn index(&self, lane: usize) -> usize {
         (self.first + lane).min(self.count - 1)
@@ -303,10 +328,8 @@ impl<I: Instructions> Bracket<I> {
 /// The pole nearest to each root.
 #[derive(Clone, Copy)]
 struct Nearest<I: Instructions> {
-    index: Lanes<I>,
     omega2: Lanes<I>,
     damping: Lanes<I>,
-    phi2: Lanes<I>,
 }
 
 impl<I: Instructions> Nearest<I> {
@@ -315,22 +338,17 @@ impl<I: Instructions> Nearest<I> {
     fn new(coupling: &Coupling, bracket: &Bracket<I>, at_middle: Lanes<I>) -> Self {
         let n = coupling.omega2.len();
         let at_middle = at_middle.numbers();
-        let mut index = [0.0; LANES];
-        let (mut omega2, mut damping, mut phi2) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (mut omega2, mut damping) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
             let lower = bracket.index(lane);
             let low = at_middle[lane] > 0.0 || lower + 1 == n;
             let nearest = if low { lower } else { lower + 1 };
-            index[lane] = nearest as f64;
             omega2[lane] = coupling.omega2[nearest];
             damping[lane] = coupling.damping[nearest];
-            phi2[lane] = coupling.phi[nearest] * coupling.phi[nearest];
         }
         Self {
-            index: Lanes::new(index),
             omega2: Lanes::new(omega2),
             damping: Lanes::new(damping),
-            phi2: Lanes::new(phi2),
         }
     }
 
@@ -340,13 +358,6 @@ impl<I: Instructions> Nearest<I> {
         let half = self.damping * Lanes::<I>::of(0.5);
         let im2 = (self.omega2 - half * half).max(Lanes::<I>::of(0.0));
         Complex::new(-half, im2.sqrt())
-    }
-
-    /// `yes` in the lanes whose nearest pole is not i.
-    #[inline(always)]
-    fn differs(&self, i: usize, yes: Lanes<I>, no: Lanes<I>) -> Lanes<I> {
-        let apart = (Lanes::<I>::of(i as f64) - self.index).abs();
-        Lanes::<I>::of(0.5).select_less(apart, yes, no)
     }
 }
 
@@ -445,13 +456,19 @@ impl<I: Instructions> Eigenvalue<I> {
         self.delta * (self.pole + self.value).plus(self.origin.damping)
     }
 
+    /// `delta (2 p_o + delta)`
+    #[inline(always)]
+    fn near(&self) -> Complex<Lanes<I>> {
+        self.delta * (self.pole + self.value)
+    }
+
     /// `D_i(s) = (w_i^2 - w_o^2) + (c_i - c_o) p_o + delta (2 p_o + c_i + delta)`
     #[inline(always)]
-    fn pole(&self, coupling: &Coupling, i: usize) -> Complex<Lanes<I>> {
+    fn pole(&self, coupling: &Coupling, near: Complex<Lanes<I>>, i: usize) -> Complex<Lanes<I>> {
         let damping = Lanes::<I>::of(coupling.damping[i]);
         let apart = Lanes::<I>::of(coupling.omega2[i]) - self.origin.omega2;
-        let drift = self.pole.scale(damping - self.origin.damping);
-        let near = self.delta * (self.pole + self.value).plus(damping);
-        (near + drift).plus(apart)
+        let near = self.delta.scale_add(damping, near);
+        let drift = self.pole.scale_add(damping - self.origin.damping, near);
+        drift.plus(apart)
     }
 }

@@ -1,8 +1,11 @@
 //! A guard along a phase: a polynomial plus exponentials plus special motions.
 
+use super::advance::CELLS_BETWEEN_ANCHORS;
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
-use super::spectrum::{Rows, Spectrum, View};
+use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
+use super::spectrum::Spectrum;
+use super::view::View;
 use crate::law::Guard;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
@@ -10,9 +13,17 @@ use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 /// half-width r, faster ones are bounded by their size: both cost about the same here.
 const FOLLOWED: f64 = 1.8;
 
-/// Bound of the rounding of a sum, in units of the sum of the sizes of its terms: a product of
-/// exponentials carried over at most 32 cells, the exponent times the time, and the summation.
-const ROUNDING: f64 = 48.0 * f64::EPSILON;
+/// Bound of the rounding of a sum, in units of the sum of the sizes of its terms.
+///
+/// With u = eps/2: an exponential is good to 6u (exponential and sine to 2.4u each, their product
+/// u), so the square of the one over half a cell to 15u, and a complex product adds sqrt(5) u
+/// (R. Brent, C. Percival, P. Zimmermann, Math. Comp. 76, 2007). Carried over eight cells that is
+/// 8 (15 + 2.3) u = 139u. The product with the amplitude and the sum of the eight lanes add 6u;
+/// each block of a sum adds one more, for which [`Signal::rounding`] allows.
+const ROUNDING: f64 = (8.0 * 17.3 + 6.0) * 0.5 * f64::EPSILON;
+
+// The anchors are where the bound says that they are.
+const _: () = assert!(CELLS_BETWEEN_ANCHORS == 8);
 
 /// Part of a signal that is neither exponential nor polynomial.
 #[derive(Debug, Clone, Copy)]
@@ -23,24 +34,39 @@ struct Special {
     third: f64,
 }
 
+/// Eight exponential terms of a signal.
+#[derive(Debug, Clone, Copy)]
+struct Terms {
+    /// `b`, `b lambda`, `b lambda^2`
+    of: [ComplexBlock; 3],
+    /// `|b|`
+    size: RealBlock,
+}
+
+impl Terms {
+    const ZERO: Self = Self {
+        of: [ComplexBlock::ZERO; 3],
+        size: RealBlock::ZERO,
+    };
+}
+
 /// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Signal {
-    /// `b`, `b lambda`, `b lambda^2`
-    terms: [Rows; 3],
-    /// `|b|`
-    size: Vec<f64>,
+    terms: Vec<Terms>,
     polynomial: [f64; 3],
     specials: Vec<Special>,
     remaining: f64,
-    total: f64,
-    total_rate: f64,
+    /// `sum |b| |lambda|^n`
+    totals: [f64; 3],
+    /// `Re sum b lambda^n`
+    at_start: [f64; 3],
 }
 
 /// Where the walk stands: exponentials at one instant after the start of the phase.
 pub(crate) struct Instant<'a> {
     pub time: f64,
-    pub exponentials: &'a Rows,
+    pub exponentials: &'a [ComplexBlock],
 }
 
 impl Signal {
@@ -56,29 +82,34 @@ impl Signal {
         remaining: f64,
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
-        self.fit(spectrum.exponents());
         self.polynomial = [guard.constant, 0.0, 0.0];
         self.specials.clear();
         self.remaining = remaining;
-        let (re, im) = phases.amplitudes(phase);
-        for o in (0..spectrum.exponents()).step_by(LANES) {
-            let lambda = spectrum.lambda.lanes::<I>(0, o);
-            let amplitude = Complex::new(Lanes::<I>::load(&re[o..]), Lanes::<I>::load(&im[o..]));
-            let weight = weights(views, guard, lambda, o);
-            let b = weight * amplitude;
-            let first = b * lambda;
-            self.terms[0].put(0, o, b);
-            self.terms[1].put(0, o, first);
-            self.terms[2].put(0, o, first * lambda);
-            b.norm().store(&mut self.size[o..]);
+        let amplitudes = phases.amplitudes(phase);
+        self.terms.resize(amplitudes.len(), Terms::ZERO);
+        let zero = Lanes::<I>::of(0.0);
+        let (mut totals, mut at_start) = ([zero; 3], [zero; 3]);
+        for (b, terms) in self.terms.iter_mut().enumerate() {
+            let lambda = spectrum.lambda[b].lanes::<I>();
+            let modulus = spectrum.moduli[b].lanes::<I>();
+            let value = weights(views, guard, lambda, b) * amplitudes[b].lanes();
+            let slope = value * lambda;
+            let curvature = slope * lambda;
+            for (n, of) in [value, slope, curvature].into_iter().enumerate() {
+                terms.of[n].put(of);
+                at_start[n] += of.re;
+            }
+            let size = value.norm();
+            terms.size.put(size);
+            totals[0] += size;
+            totals[1] = size.mul_add(modulus, totals[1]);
+            totals[2] = size.mul_add(modulus * modulus, totals[2]);
         }
-        self.total_rate = 0.0;
-        self.total = 0.0;
-        for j in 0..spectrum.exponents() {
-            let lambda = spectrum.lambda.get(0, j).norm();
-            self.total += self.size[j];
-            self.total_rate += self.size[j] * lambda;
-        }
+        let [a, b, c] = totals;
+        let [d, e, f] = at_start;
+        let sums = Lanes::totals([a, b, c, d, e, f, zero, zero]);
+        self.totals = [sums[0], sums[1], sums[2]];
+        self.at_start = [sums[3], sums[4], sums[5]];
         for (coordinate, (position, velocity)) in
             guard.position.iter().zip(guard.velocity).enumerate()
         {
@@ -87,13 +118,6 @@ impl Signal {
                 self.polynomial[0] += position * view.rest;
                 self.add_singles(phases, phase, view, *position, velocity);
             }
-        }
-    }
-
-    fn fit(&mut self, exponents: usize) {
-        if self.size.len() != exponents {
-            self.terms = std::array::from_fn(|_| Rows::zeros(1, exponents));
-            self.size = vec![0.0; exponents];
         }
     }
 
@@ -123,7 +147,7 @@ impl Signal {
                     of_velocity: velocity,
                     third,
                 });
-                self.total += position.abs() * x0.abs() + velocity.abs() * v0.abs();
+                self.totals[0] += position.abs() * x0.abs() + velocity.abs() * v0.abs();
             } else {
                 let p = motion.polynomial(x0, v0);
                 self.polynomial[0] += position * p[0] + velocity * p[1];
@@ -138,26 +162,33 @@ impl Signal {
     pub(crate) fn rounding(&self, t: f64) -> f64 {
         let p = self.polynomial;
         let polynomial = p[0].abs() + t * (p[1].abs() + t * p[2].abs());
-        ROUNDING * (self.total + polynomial) + f64::EPSILON * self.total_rate * t
+        let blocks = 0.5 * f64::EPSILON * self.terms.len() as f64;
+        (ROUNDING + blocks) * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t
     }
 
     /// The signal's rate.
     pub(crate) fn derivative(&self, phases: &Phases, phase: Phase) -> Self {
         let spectrum = &phases.spectra[phase.spectrum];
         let mut rate = self.clone();
-        rate.terms = [
-            self.terms[1].clone(),
-            self.terms[2].clone(),
-            self.terms[2].clone(),
-        ];
-        rate.total = 0.0;
-        rate.total_rate = 0.0;
-        for j in 0..self.size.len() {
-            let lambda = spectrum.lambda.get(0, j);
-            rate.terms[2].set(0, j, self.terms[2].get(0, j) * lambda);
-            rate.size[j] *= lambda.norm();
-            rate.total += rate.size[j];
-            rate.total_rate += rate.size[j] * lambda.norm();
+        rate.totals = [0.0; 3];
+        rate.at_start = [self.at_start[1], self.at_start[2], 0.0];
+        for (b, terms) in rate.terms.iter_mut().enumerate() {
+            let [_, slope, curvature] = terms.of;
+            terms.of = [slope, curvature, curvature];
+            for lane in 0..LANES {
+                let j = b * LANES + lane;
+                let (lambda, modulus) = (entry(&spectrum.lambda, j), spectrum.moduli[b].0[lane]);
+                let [_, _, third] = &mut terms.of;
+                let product = entry(std::slice::from_ref(&curvature), lane) * lambda;
+                set_entry(std::slice::from_mut(third), lane, product);
+                rate.at_start[2] += product.re;
+                terms.size.0[lane] *= modulus;
+                let mut part = terms.size.0[lane];
+                for total in &mut rate.totals {
+                    *total += part;
+                    part *= modulus;
+                }
+            }
         }
         let p = self.polynomial;
         rate.polynomial = [p[1], 2.0 * p[2], 0.0];
@@ -173,7 +204,7 @@ impl Signal {
             let bound = |order| motion.special_bound(order, x0, v0, self.remaining);
             special.third =
                 special.of_position.abs() * bound(3) + special.of_velocity.abs() * bound(4);
-            rate.total += special.of_velocity.abs() * v0.abs();
+            rate.totals[0] += special.of_velocity.abs() * v0.abs();
         }
         rate
     }
@@ -181,11 +212,14 @@ impl Signal {
     /// Changes the sign.
     pub(crate) fn negate(&mut self) {
         for terms in &mut self.terms {
-            for x in terms.re.iter_mut().chain(&mut terms.im) {
-                *x = -*x;
+            for block in &mut terms.of {
+                for x in block.re.iter_mut().chain(&mut block.im) {
+                    *x = -*x;
+                }
             }
         }
         self.polynomial = self.polynomial.map(|x| -x);
+        self.at_start = self.at_start.map(|x| -x);
         for special in &mut self.specials {
             special.of_position = -special.of_position;
             special.of_velocity = -special.of_velocity;
@@ -197,10 +231,13 @@ impl Signal {
         let spectrum = &phases.spectra[phase.spectrum];
         let p = self.polynomial;
         let mut total = t * (p[0] + t * (p[1] / 2.0 + t * p[2] / 3.0));
-        for j in 0..self.size.len() {
-            let lambda = spectrum.lambda.get(0, j);
-            if self.size[j] > 0.0 {
-                total += (self.terms[0].get(0, j) * grown(lambda, t)).re;
+        for (terms, lambda) in self.terms.iter().zip(&spectrum.lambda) {
+            for lane in 0..LANES {
+                if terms.size.0[lane] > 0.0 {
+                    let lambda = entry(std::slice::from_ref(lambda), lane);
+                    let b = entry(&terms.of[..1], lane);
+                    total += (b * grown(lambda, t)).re;
+                }
             }
         }
         for special in &self.specials {
@@ -215,13 +252,8 @@ impl Signal {
 
     /// Makes the signal positive just after the start of the phase; tells whether it is so at
     /// the start already.
-    pub(crate) fn orient<I: Instructions>(&mut self, phases: &Phases, phase: Phase) -> bool {
-        let ones = super::event::ones(self.size.len());
-        let at = Instant {
-            time: 0.0,
-            exponentials: &ones,
-        };
-        let values = self.values::<I>(phases, phase, &at);
+    pub(crate) fn orient(&mut self, phases: &Phases, phase: Phase) -> bool {
+        let values = self.values_at_start(phases, phase);
         let starts = values[0].abs() > self.rounding(0.0);
         let sign = if starts { values[0] } else { values[1] };
         if sign < 0.0 {
@@ -232,12 +264,8 @@ impl Signal {
 
     /// Bounds of the rounding of slope and curvature at the start of the phase.
     #[inline(always)]
-    pub(crate) fn rate_rounding(&self, phases: &Phases, phase: Phase, moduli: &[f64]) -> [f64; 2] {
-        let mut bounds = [0.0; 2];
-        for (size, modulus) in self.size.iter().zip(moduli) {
-            bounds[0] += size * modulus;
-            bounds[1] += size * modulus * modulus;
-        }
+    pub(crate) fn rate_rounding(&self, phases: &Phases, phase: Phase) -> [f64; 2] {
+        let mut bounds = [self.totals[1], self.totals[2]];
         for special in &self.specials {
             let motion = &phases.spectra[phase.spectrum].singles[special.single].motion;
             let (x0, v0) = phases.kept(phase, special.single);
@@ -258,20 +286,20 @@ impl Signal {
     /// A typical angular frequency of the signal's curvature, in rad/s; zero for a polynomial.
     #[inline(always)]
     pub(crate) fn pace(&self, spectrum: &Spectrum) -> f64 {
-        let mut bending = 0.0;
-        for (size, j) in self.size.iter().zip(0..) {
-            let lambda = spectrum.lambda.get(0, j);
-            bending += size * lambda.norm2();
+        let [size, _, bending] = self.totals;
+        let mut pace = if size > 0.0 { bending / size } else { 0.0 };
+        for special in &self.specials {
+            pace = pace.max(spectrum.singles[special.single].motion.omega2.abs());
         }
-        let special: f64 = (self.specials.iter())
-            .map(|s| spectrum.singles[s.single].motion.omega2.abs())
-            .fold(0.0, f64::max);
-        let own = if self.total > 0.0 {
-            bending / self.total
-        } else {
-            0.0
-        };
-        own.max(special).sqrt()
+        pace.sqrt()
+    }
+
+    /// Value and first two derivatives at the start of the phase.
+    #[inline(always)]
+    pub(crate) fn values_at_start(&self, phases: &Phases, phase: Phase) -> [f64; 3] {
+        let mut values = self.at_start;
+        self.add_slow(phases, phase, 0.0, &mut values);
+        values
     }
 
     /// Value and first two derivatives, all terms summed.
@@ -283,13 +311,15 @@ impl Signal {
         at: &Instant<'_>,
     ) -> [f64; 3] {
         let mut sums = [Lanes::<I>::of(0.0); 3];
-        for o in (0..self.size.len()).step_by(LANES) {
-            let e = at.exponentials.lanes::<I>(0, o);
-            for (sum, terms) in sums.iter_mut().zip(&self.terms) {
-                *sum += terms.lanes(0, o).real_product(e);
+        for (terms, e) in self.terms.iter().zip(at.exponentials) {
+            let e = e.lanes::<I>();
+            for (sum, of) in sums.iter_mut().zip(&terms.of) {
+                *sum = of.lanes().add_real_product(e, *sum);
             }
         }
-        let mut values = [sums[0].total(), sums[1].total(), sums[2].total()];
+        let zero = Lanes::<I>::of(0.0);
+        let totals = Lanes::totals([sums[0], sums[1], sums[2], zero, zero, zero, zero, zero]);
+        let mut values = [totals[0], totals[1], totals[2]];
         self.add_slow(phases, phase, at.time, &mut values);
         values
     }
@@ -302,15 +332,25 @@ impl Signal {
         phase: Phase,
         at: &Instant<'_>,
     ) -> f64 {
+        self.derivative_value::<I>(0, phases, phase, at)
+    }
+
+    /// One of value, slope and curvature alone.
+    #[inline(always)]
+    pub(crate) fn derivative_value<I: Instructions>(
+        &self,
+        order: usize,
+        phases: &Phases,
+        phase: Phase,
+        at: &Instant<'_>,
+    ) -> f64 {
         let mut sum = Lanes::<I>::of(0.0);
-        for o in (0..self.size.len()).step_by(LANES) {
-            sum += self.terms[0]
-                .lanes(0, o)
-                .real_product(at.exponentials.lanes(0, o));
+        for (terms, e) in self.terms.iter().zip(at.exponentials) {
+            sum = terms.of[order].lanes().add_real_product(e.lanes(), sum);
         }
-        let mut values = [sum.total(), 0.0, 0.0];
+        let mut values = [0.0; 3];
         self.add_slow(phases, phase, at.time, &mut values);
-        values[0]
+        sum.total() + values[order]
     }
 
     /// Polynomial and special parts.
@@ -339,38 +379,48 @@ impl Signal {
         phases: &Phases,
         phase: Phase,
         at: &Instant<'_>,
-        sizes: &[f64],
-        moduli: &[f64],
+        sizes: &[RealBlock],
         reach: f64,
     ) -> Jet {
+        let moduli = &phases.spectra[phase.spectrum].moduli;
         let limit = Lanes::<I>::of(FOLLOWED / reach);
-        let (one, zero) = (Lanes::<I>::of(1.0), Lanes::<I>::of(0.0));
+        let zero = Lanes::<I>::of(0.0);
         let mut sums = [zero; 3];
         let mut third = zero;
         let mut rest = [zero; 3];
-        for o in (0..self.size.len()).step_by(LANES) {
-            let modulus = Lanes::<I>::load(&moduli[o..]);
-            let slow = modulus.select_less(limit, one, zero);
-            let e = at.exponentials.lanes(0, o);
-            for (sum, terms) in sums.iter_mut().zip(&self.terms) {
-                *sum += slow * terms.lanes(0, o).real_product(e);
+        let exponents = at.exponentials.iter().zip(moduli.iter().zip(sizes));
+        for (terms, (e, (modulus, size))) in self.terms.iter().zip(exponents) {
+            let modulus = modulus.lanes::<I>();
+            let e = e.lanes::<I>();
+            let size = terms.size.lanes() * size.lanes();
+            // Exponents are either followed or bounded.
+            let followed = Complex::new(
+                modulus.select_less(limit, e.re, zero),
+                modulus.select_less(limit, e.im, zero),
+            );
+            let slow = modulus.select_less(limit, size, zero);
+            let fast = size - slow;
+            for (sum, of) in sums.iter_mut().zip(&terms.of) {
+                *sum = of.lanes().add_real_product(followed, *sum);
             }
-            let size = Lanes::<I>::load(&self.size[o..]) * Lanes::<I>::load(&sizes[o..]);
-            let fast = (one - slow) * size;
+            let modulus2 = modulus * modulus;
             rest[0] += fast;
-            rest[1] += fast * modulus;
-            rest[2] += fast * modulus * modulus;
-            third += slow * size * modulus * modulus * modulus;
+            rest[1] = fast.mul_add(modulus, rest[1]);
+            rest[2] = fast.mul_add(modulus2, rest[2]);
+            third = (slow * modulus).mul_add(modulus2, third);
         }
-        let mut values = [sums[0].total(), sums[1].total(), sums[2].total()];
+        let totals = Lanes::totals([
+            sums[0], sums[1], sums[2], third, rest[0], rest[1], rest[2], zero,
+        ]);
+        let mut values = [totals[0], totals[1], totals[2]];
         self.add_slow(phases, phase, at.time, &mut values);
         let specials: f64 = self.specials.iter().map(|s| s.third).sum();
         Jet {
             value: values[0],
             slope: values[1],
             curvature: values[2],
-            third: third.total() + specials,
-            rest: [rest[0].total(), rest[1].total(), rest[2].total()],
+            third: totals[3] + specials,
+            rest: [totals[4], totals[5], totals[6]],
             rounding: self.rounding(at.time + reach),
         }
     }
@@ -396,13 +446,13 @@ fn weights<I: Instructions>(
     views: &[View],
     guard: &Guard,
     lambda: Complex<Lanes<I>>,
-    offset: usize,
+    block: usize,
 ) -> Complex<Lanes<I>> {
     let mut total = Complex::zero();
     let factors = guard.position.iter().zip(guard.velocity);
     for ((position, velocity), view) in factors.zip(views) {
         if *position != 0.0 || velocity != 0.0 {
-            let view = view.exponents.lanes(0, offset);
+            let view = view.exponents[block].lanes();
             let factor = lambda
                 .scale(Lanes::<I>::of(velocity))
                 .plus(Lanes::<I>::of(*position));

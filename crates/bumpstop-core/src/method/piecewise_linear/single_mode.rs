@@ -17,6 +17,9 @@ const NEAR_CRITICAL: f64 = 1e-4;
 /// Terms of the Taylor series of a slow mode; `SLOW^20/20!` is far below rounding.
 const TAYLOR_TERMS: usize = 20;
 
+/// Rates `a lambda exp(lambda t)` of a mode's exponentials; zero where there is none.
+pub(crate) type Rates = [Complex<f64>; 2];
+
 /// The regime of a mode, with what its closed form needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Regime {
@@ -199,29 +202,32 @@ impl SingleMode {
         (x, v)
     }
 
-    /// `c` times the integral of the squared velocity from the start of the phase to t.
-    pub(crate) fn dissipation(&self, x0: f64, v0: f64, t: f64) -> f64 {
+    /// `c` times the integral of the squared velocity from the start of the phase to t. The
+    /// rates of the mode's exponentials at both ends are given.
+    pub(crate) fn dissipation(&self, x0: f64, v0: f64, t: f64, rates: [Rates; 2]) -> f64 {
         let c = self.damping;
         if c == 0.0 {
             return 0.0;
         }
-        let amplitudes = self.amplitudes(x0, v0);
-        let between = |primitive: &dyn Fn(f64) -> f64| c * (primitive(t) - primitive(0.0));
         match self.regime {
-            Regime::Oscillating(lambda) => between(&|t| {
-                let z = amplitudes[0] * lambda * lambda.scale(t).exp();
-                0.25 * ((z * z) * lambda.recip()).re + 0.25 * z.norm2() / lambda.re
-            }),
-            Regime::Overdamped { slow, fast } => between(&|t| {
-                let a = amplitudes[0].re * slow * Number::exp(slow * t);
-                let b = amplitudes[1].re * fast * Number::exp(fast * t);
-                0.5 * (a * a / slow + b * b / fast) + 2.0 * a * b / (slow + fast)
-            }),
-            Regime::Coasting => between(&|t| {
+            Regime::Oscillating(lambda) => {
+                let primitive = |[z, _]: Rates| {
+                    0.25 * ((z * z) * lambda.recip()).re + 0.25 * z.norm2() / lambda.re
+                };
+                c * (primitive(rates[1]) - primitive(rates[0]))
+            }
+            Regime::Overdamped { slow, fast } => {
+                let primitive = |[a, b]: Rates| {
+                    0.5 * (a.re * a.re / slow + b.re * b.re / fast)
+                        + 2.0 * a.re * b.re / (slow + fast)
+                };
+                c * (primitive(rates[1]) - primitive(rates[0]))
+            }
+            Regime::Coasting => {
                 let drift = self.force / c;
-                let z = (v0 - drift) * Number::exp(-c * t);
-                drift * drift * t - (2.0 * drift * z + 0.5 * z * z) / c
-            }),
+                let primitive = |[z, _]: Rates| (2.0 * drift * z.re + 0.5 * z.re * z.re) / c;
+                c * (drift * drift * t - (primitive(rates[1]) - primitive(rates[0])))
+            }
             Regime::NearCritical => {
                 self.lyapunov(x0, v0) - {
                     let end = self.special(x0, v0, t);
@@ -357,7 +363,12 @@ mod tests {
                 let v = motion(&mode, x0, v0, f64::from(i) * h + s).1;
                 damping * v * v
             })).sum();
-            let found = mode.dissipation(x0, v0, t);
+            let (exponents, _) = mode.exponents();
+            let amplitudes = mode.amplitudes(x0, v0);
+            let rates = [0.0, t].map(|t| {
+                std::array::from_fn(|i| amplitudes[i] * exponents[i] * exponents[i].scale(t).exp())
+            });
+            let found = mode.dissipation(x0, v0, t, rates);
             prop_assert!((found - expected).abs() < 1e-10 * (1.0 + expected.abs()), "{mode:?}");
         }
     }

@@ -6,63 +6,15 @@
 //! only are split into the combination that it pushes and the rest that it does not see.
 
 use super::dense;
+use super::grouping::{Acting, group_alike, group_forces, static_groups};
+use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
 use super::single_mode::SingleMode;
+use super::view::View;
 use crate::error::{Error, Result};
-use crate::law::{COORDINATES, Law, Piece, State};
-use crate::number::{Complex, Instructions, LANES, Lanes, Number, padded};
+use crate::law::{Law, State};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
-
-/// Complex numbers in arrays of whole lanes, rows of `stride`.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Rows {
-    pub re: Vec<f64>,
-    pub im: Vec<f64>,
-    pub stride: usize,
-}
-
-impl Rows {
-    pub(crate) fn zeros(rows: usize, stride: usize) -> Self {
-        Self {
-            re: vec![0.0; rows * stride],
-            im: vec![0.0; rows * stride],
-            stride,
-        }
-    }
-
-    /// Eight entries of a row.
-    #[inline(always)]
-    pub(crate) fn lanes<I: Instructions>(&self, row: usize, offset: usize) -> Complex<Lanes<I>> {
-        let at = row * self.stride + offset;
-        Complex::new(
-            Lanes::<I>::load(&self.re[at..]),
-            Lanes::<I>::load(&self.im[at..]),
-        )
-    }
-
-    /// Writes eight entries of a row.
-    #[inline(always)]
-    pub(crate) fn put<I: Instructions>(
-        &mut self,
-        row: usize,
-        offset: usize,
-        value: Complex<Lanes<I>>,
-    ) {
-        let at = row * self.stride + offset;
-        value.re.store(&mut self.re[at..]);
-        value.im.store(&mut self.im[at..]);
-    }
-
-    pub(crate) fn get(&self, row: usize, column: usize) -> Complex<f64> {
-        let at = row * self.stride + column;
-        Complex::new(self.re[at], self.im[at])
-    }
-
-    pub(crate) fn set(&mut self, row: usize, column: usize, value: Complex<f64>) {
-        let at = row * self.stride + column;
-        (self.re[at], self.im[at]) = (value.re, value.im);
-    }
-}
 
 /// A mode's part in a coupled combination.
 #[derive(Debug, Clone, Copy)]
@@ -94,20 +46,19 @@ pub(crate) struct Single {
 }
 
 /// All that a phase needs to know of the linear system between two switches.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Spectrum {
     pub states: Vec<State>,
-    /// Exponents; the first `coupled_stride` belong to the coupled groups. One of each conjugate
-    /// pair, or a real one; padding has exponent zero.
-    pub lambda: Rows,
+    /// Exponents, in blocks; the first `coupled_width` belong to the coupled groups. One of each
+    /// conjugate pair, or a real one; padding has exponent zero.
+    pub lambda: Vec<ComplexBlock>,
+    /// Their moduli.
+    pub moduli: Vec<RealBlock>,
     /// Number of coupled groups.
     pub groups: usize,
-    pub coupled_stride: usize,
-    /// Shapes, one row a group.
-    pub shape: Rows,
-    /// Left vectors: amplitude = sum over groups of position row y + velocity row y'.
-    pub left_position: Rows,
-    pub left_velocity: Rows,
+    pub coupled_width: usize,
+    /// Shapes and left vectors: see [`Spectrum::shape`].
+    vectors: Rows,
     /// Constant part of the groups under constant forces.
     pub at_rest: Vec<f64>,
     /// Damping of the groups by the structure alone.
@@ -135,137 +86,204 @@ pub(crate) enum Secular {
     Skip,
 }
 
+/// Room for making spectra, used again and again.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Workbench {
+    acting: Vec<Acting>,
+    order: Vec<usize>,
+    coupling: Coupling,
+    forces: Vec<f64>,
+    weights: Vec<f64>,
+    pushed: Vec<f64>,
+    combined: Vec<f64>,
+}
+
 impl Spectrum {
-    /// Solves the eigenproblem for the laws in the given states.
+    /// Solves the eigenproblem for the laws in the given states, in the memory of a spectrum that
+    /// is no longer needed.
     #[inline(always)]
     pub(crate) fn new<I: Instructions, L: Law>(
         problem: &Problem<L>,
         states: &[State],
         secular: Secular,
+        bench: &mut Workbench,
+        room: Self,
     ) -> Result<Self> {
-        let acting = Acting::new(problem, states);
-        let mut spectrum = match acting.as_slice() {
-            [] => Self::empty(states),
-            [one] => Self::of_one_spring::<I, L>(problem, states, one, secular)?,
-            several => dense::spectrum(problem, states, several)?,
-        };
-        spectrum.add_singles(problem);
+        let mut spectrum = room.cleared();
+        spectrum.states.extend_from_slice(states);
+        Acting::list(problem, states, &mut bench.acting);
+        match bench.acting.as_slice() {
+            [] => {}
+            [one] => {
+                let one = *one;
+                spectrum.couple_by_one::<I, L>(problem, &one, secular, bench)?;
+            }
+            several => dense::couple(&mut spectrum, problem, several)?,
+        }
+        spectrum.add_singles(problem, bench);
         spectrum.lay_out_exponents();
-        spectrum.grows = spectrum.lambda.re.iter().any(|re| *re > 0.0);
-        spectrum.fastest = (spectrum.lambda.re.iter().zip(&spectrum.lambda.im))
-            .fold(0.0f64, |m, (re, im)| m.max(re * re + im * im))
-            .sqrt();
+        spectrum.measure_exponents::<I>();
+        let mut views = std::mem::take(&mut spectrum.views);
+        let mut count = 0;
         for law in &problem.laws {
             for row in law.rows() {
-                let view = View::new::<I>(&spectrum, row);
-                spectrum.views.push(view);
+                if views.len() == count {
+                    views.push(View::default());
+                }
+                views[count].set::<I>(&spectrum, row, &mut bench.combined);
+                count += 1;
             }
         }
+        views.truncate(count);
+        spectrum.views = views;
         Ok(spectrum)
     }
 
-    /// A spectrum without any mode yet.
-    pub(crate) fn empty(states: &[State]) -> Self {
-        Self {
-            states: states.to_vec(),
-            lambda: Rows::default(),
-            groups: 0,
-            coupled_stride: 0,
-            shape: Rows::default(),
-            left_position: Rows::default(),
-            left_velocity: Rows::default(),
-            at_rest: Vec::new(),
-            group_damping: Vec::new(),
-            members: Vec::new(),
-            combinations: 0,
-            singles: Vec::new(),
-            views: Vec::new(),
-            grows: false,
-            fastest: 0.0,
-            is_secular: false,
-        }
+    /// The memory of a spectrum, for another one.
+    #[inline(always)]
+    fn cleared(mut self) -> Self {
+        self.states.clear();
+        self.lambda.clear();
+        self.moduli.clear();
+        self.at_rest.clear();
+        self.group_damping.clear();
+        self.members.clear();
+        self.singles.clear();
+        (self.groups, self.coupled_width, self.combinations) = (0, 0, 0);
+        self.is_secular = false;
+        self
     }
 
     /// One spring and damper: the secular equation, or the dense problem where it declines.
     #[inline(always)]
-    fn of_one_spring<I: Instructions, L: Law>(
+    fn couple_by_one<I: Instructions, L: Law>(
+        &mut self,
         problem: &Problem<L>,
-        states: &[State],
         law: &Acting,
         secular: Secular,
-    ) -> Result<Self> {
-        let mut spectrum = Self::empty(states);
-        let groups = group_alike(problem, law);
-        spectrum.members = groups.members;
-        let coupling = &groups.coupling;
-        spectrum.combinations = coupling.omega2.len();
-        if spectrum.combinations == 1 {
-            spectrum.add_lone_combination(problem, law, coupling);
-            return Ok(spectrum);
+        bench: &mut Workbench,
+    ) -> Result<()> {
+        let coupling = &mut bench.coupling;
+        group_alike(problem, law, &mut bench.order, coupling, &mut self.members);
+        self.combinations = coupling.omega2.len();
+        let modal = problem.forcing.forces();
+        group_forces(modal, &self.members, self.combinations, &mut bench.forces);
+        if self.combinations == 1 {
+            self.add_lone_combination(problem, law, coupling, bench.forces[0]);
+            return Ok(());
         }
-        let forces = group_forces(problem, &spectrum.members, coupling.omega2.len());
-        spectrum.groups = coupling.omega2.len();
-        spectrum.group_damping.clone_from(&coupling.damping);
-        spectrum.at_rest = static_groups(coupling, &forces, law.constant).ok_or(Error::NoRest)?;
-        let roots = match secular {
-            Secular::Try => coupling.solve::<I>(),
-            Secular::Skip => None,
-        };
-        spectrum.is_secular = roots.is_some();
-        match roots {
-            Some(roots) => spectrum.set_secular::<I>(coupling, roots),
-            None => dense::set_coupled(&mut spectrum, coupling)?,
+        self.groups = self.combinations;
+        self.group_damping.extend_from_slice(&coupling.damping);
+        self.at_rest.reserve(self.groups);
+        if !static_groups(coupling, &bench.forces, law.constant, &mut self.at_rest) {
+            return Err(Error::NoRest);
         }
-        Ok(spectrum)
+        if secular == Secular::Try {
+            self.is_secular = self.solve_secular::<I>(coupling);
+        }
+        if !self.is_secular {
+            dense::set_coupled(self, coupling)?;
+        }
+        Ok(())
+    }
+
+    /// Numbers in its arrays, for the size of its memory.
+    pub(crate) fn numbers(&self) -> usize {
+        self.vectors.numbers() + 4 * LANES * self.lambda.len() * (1 + self.views.len())
+    }
+
+    /// Makes room for the vectors of the coupled groups, `width` blocks of exponents.
+    pub(crate) fn make_room(&mut self, width: usize) {
+        self.coupled_width = width;
+        // Singles may add exponents behind.
+        self.lambda.clear();
+        self.lambda.reserve_exact(width + 1);
+        self.lambda.resize(width, ComplexBlock::ZERO);
+        self.vectors.reset(3 * self.groups, width);
+    }
+
+    /// Shape of a group: `y_g = Re sum_j shape_gj z_j`.
+    #[inline(always)]
+    pub(crate) fn shape(&self, group: usize) -> &[ComplexBlock] {
+        self.vectors.row(group)
+    }
+
+    #[inline(always)]
+    pub(crate) fn shape_mut(&mut self, group: usize) -> &mut [ComplexBlock] {
+        self.vectors.row_mut(group)
+    }
+
+    /// Left vectors: amplitude = sum over groups of position row y + velocity row y'.
+    #[inline(always)]
+    fn left_position(&self, group: usize) -> &[ComplexBlock] {
+        self.vectors.row(self.groups + group)
+    }
+
+    #[inline(always)]
+    pub(crate) fn left_position_mut(&mut self, group: usize) -> &mut [ComplexBlock] {
+        self.vectors.row_mut(self.groups + group)
+    }
+
+    #[inline(always)]
+    fn left_velocity(&self, group: usize) -> &[ComplexBlock] {
+        self.vectors.row(2 * self.groups + group)
+    }
+
+    #[inline(always)]
+    pub(crate) fn left_velocity_mut(&mut self, group: usize) -> &mut [ComplexBlock] {
+        self.vectors.row_mut(2 * self.groups + group)
     }
 
     /// Shapes and left vectors from the roots of the secular equation: with psi_i = phi_i/D_i,
     /// `a = 2 psi'[(lambda + C) y + y'] / (psi' (2 lambda + C) psi)`, C with the stop's damper.
+    /// `false` where the secular equation does not apply.
     #[inline(always)]
-    fn set_secular<I: Instructions>(&mut self, coupling: &Coupling, roots: super::secular::Roots) {
-        let n = coupling.omega2.len();
-        let stride = roots.stride;
-        self.coupled_stride = stride;
-        self.lambda = Rows {
-            re: roots.lambda_re,
-            im: roots.lambda_im,
-            stride,
-        };
-        self.shape = Rows {
-            re: roots.inverse_re,
-            im: roots.inverse_im,
-            stride,
-        };
-        self.left_position = Rows::zeros(n, stride);
-        self.left_velocity = Rows::zeros(n, stride);
+    fn solve_secular<I: Instructions>(&mut self, coupling: &Coupling) -> bool {
+        if !coupling.is_lightly_damped() {
+            return false;
+        }
+        self.make_room(self.groups.div_ceil(LANES));
+        for block in 0..self.coupled_width {
+            let lambda = coupling.solve_block::<I>(block, &mut self.vectors);
+            let Some(lambda) = lambda else {
+                return false;
+            };
+            self.lambda[block].put(lambda);
+            self.set_vectors::<I>(coupling, block, lambda);
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn set_vectors<I: Instructions>(
+        &mut self,
+        coupling: &Coupling,
+        block: usize,
+        lambda: Complex<Lanes<I>>,
+    ) {
         let (k, c) = (
             Lanes::<I>::of(coupling.stiffness),
             Lanes::<I>::of(coupling.stop_damping),
         );
         let two = Lanes::<I>::of(2.0);
-        for o in (0..stride).step_by(LANES) {
-            let lambda = self.lambda.lanes(0, o);
-            // phi' psi = -1/kappa at a root.
-            let kappa = Complex::new(k + c * lambda.re, c * lambda.im);
-            let contact = safe_recip(kappa);
-            let mut norm = (contact * contact).scale(c);
-            for i in 0..n {
-                let psi = self
-                    .shape
-                    .lanes(i, o)
-                    .scale(Lanes::<I>::of(coupling.phi[i]));
-                self.shape.put(i, o, psi);
-                let rate = lambda.scale(two).plus(Lanes::<I>::of(coupling.damping[i]));
-                norm += psi * psi * rate;
-            }
-            let factor = safe_recip(norm).scale(two);
-            for i in 0..n {
-                let psi = self.shape.lanes(i, o) * factor;
-                let damper = (contact * factor).scale(c * Lanes::<I>::of(coupling.phi[i]));
-                let with_rate = psi * lambda.plus(Lanes::<I>::of(coupling.damping[i]));
-                self.left_velocity.put(i, o, psi);
-                self.left_position.put(i, o, with_rate - damper);
-            }
+        // phi' psi = -1/kappa at a root.
+        let kappa = Complex::new(k + c * lambda.re, c * lambda.im);
+        let contact = safe_recip(kappa);
+        let mut norm = (contact * contact).scale(c);
+        for i in 0..self.groups {
+            let inverse = self.shape(i)[block].lanes();
+            let psi = inverse.scale(Lanes::<I>::of(coupling.phi[i]));
+            self.shape_mut(i)[block].put(psi);
+            let rate = lambda.scale(two).plus(Lanes::<I>::of(coupling.damping[i]));
+            norm = (psi * psi).mul_add(rate, norm);
+        }
+        let factor = safe_recip(norm).scale(two);
+        for i in 0..self.groups {
+            let psi = self.shape(i)[block].lanes() * factor;
+            let damper = (contact * factor).scale(c * Lanes::<I>::of(coupling.phi[i]));
+            let with_rate = psi * lambda.plus(Lanes::<I>::of(coupling.damping[i]));
+            self.left_velocity_mut(i)[block].put(psi);
+            self.left_position_mut(i)[block].put(with_rate - damper);
         }
     }
 
@@ -276,10 +294,11 @@ impl Spectrum {
         problem: &Problem<L>,
         law: &Acting,
         coupling: &Coupling,
+        modal_force: f64,
     ) {
         let phi = coupling.phi[0];
         let (modal, added) = (coupling.damping[0], law.damping * phi * phi);
-        let force = group_forces(problem, &self.members, 1)[0] + phi * law.constant;
+        let force = modal_force + phi * law.constant;
         let stiffness = coupling.omega2[0] + law.stiffness * phi * phi;
         let damping = modal + added;
         self.singles.push(Single {
@@ -293,16 +312,30 @@ impl Spectrum {
 
     /// Adds the modes, or parts of modes, that no acting law sees.
     #[inline(always)]
-    fn add_singles<L: Law>(&mut self, problem: &Problem<L>) {
+    fn add_singles<L: Law>(&mut self, problem: &Problem<L>, bench: &mut Workbench) {
         let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
         let forces = problem.forcing.forces();
-        let mut weight = vec![0.0; omega2.len()];
+        let Workbench {
+            forces: totals,
+            weights,
+            pushed,
+            ..
+        } = bench;
+        group_forces(forces, &self.members, self.combinations, totals);
+        weights.clear();
+        weights.resize(omega2.len(), 0.0);
+        pushed.clear();
+        pushed.resize(omega2.len(), 0.0);
+        let mut whole = 0;
         for member in &self.members {
-            weight[member.mode] = member.weight;
+            weights[member.mode] = member.weight;
+            // The part of the mode's force that its group takes.
+            pushed[member.mode] = member.weight * totals[member.group];
+            whole += usize::from(member.weight.abs() == 1.0);
         }
-        let pushed = self.group_force_of_modes(forces);
+        self.singles.reserve_exact(omega2.len() - whole);
         for mode in 0..omega2.len() {
-            if weight[mode].abs() == 1.0 {
+            if weights[mode].abs() == 1.0 {
                 continue;
             }
             let force = forces[mode] - pushed[mode];
@@ -316,49 +349,45 @@ impl Spectrum {
         }
     }
 
-    /// The part of each mode's force that its group takes.
-    fn group_force_of_modes(&self, forces: &[f64]) -> Vec<f64> {
-        let mut totals = vec![0.0; self.combinations];
-        for m in &self.members {
-            totals[m.group] += m.weight * forces[m.mode];
-        }
-        let mut pushed = vec![0.0; forces.len()];
-        for m in &self.members {
-            pushed[m.mode] = m.weight * totals[m.group];
-        }
-        pushed
-    }
-
     fn lay_out_exponents(&mut self) {
-        let mut at = self.coupled_stride;
+        let mut at = self.coupled_width * LANES;
         for single in &mut self.singles {
             single.at = at;
             at += single.motion.exponents().1;
         }
-        let stride = padded(at);
-        self.lambda.re.resize(stride, 0.0);
-        self.lambda.im.resize(stride, 0.0);
-        self.lambda.stride = stride;
+        self.lambda.resize(at.div_ceil(LANES), ComplexBlock::ZERO);
         for single in &self.singles {
             let (exponents, count) = single.motion.exponents();
             for (i, lambda) in exponents.iter().enumerate().take(count) {
-                self.lambda.set(0, single.at + i, *lambda);
+                set_entry(&mut self.lambda, single.at + i, *lambda);
             }
         }
     }
 
-    /// Number of exponents, padding included.
     #[inline(always)]
-    pub(crate) fn exponents(&self) -> usize {
-        self.lambda.stride
+    fn measure_exponents<I: Instructions>(&mut self) {
+        self.moduli.reserve_exact(self.lambda.len());
+        let zero = Lanes::<I>::of(0.0);
+        let (mut fastest, mut growth) = (zero, zero);
+        for block in &self.lambda {
+            let lambda = block.lanes::<I>();
+            let modulus = lambda.norm();
+            let mut moduli = RealBlock::ZERO;
+            moduli.put(modulus);
+            self.moduli.push(moduli);
+            fastest = fastest.max(modulus);
+            growth = growth.max(lambda.re);
+        }
+        self.fastest = largest(fastest);
+        self.grows = largest(growth) > 0.0;
     }
 
     /// `exp(lambda t)` for all exponents.
     #[inline(always)]
-    pub(crate) fn exponentials<I: Instructions>(&self, t: f64, to: &mut Rows) {
-        for o in (0..self.exponents()).step_by(LANES) {
-            let exponents: Complex<Lanes<I>> = self.lambda.lanes(0, o);
-            to.put(0, o, exponents.scale(Lanes::<I>::of(t)).exp());
+    pub(crate) fn exponentials<I: Instructions>(&self, t: f64, to: &mut [ComplexBlock]) {
+        let t = Lanes::<I>::of(t);
+        for (lambda, to) in self.lambda.iter().zip(to) {
+            to.put(lambda.lanes().scale(t).exp());
         }
     }
 
@@ -371,219 +400,53 @@ impl Spectrum {
         }
     }
 
-    /// Amplitudes of the coupled exponents from the groups' state, measured from rest.
+    /// Amplitudes of the coupled exponents from the groups' state, measured from rest, added to
+    /// what is there.
     #[inline(always)]
-    pub(crate) fn amplitudes<I: Instructions>(
+    pub(crate) fn add_amplitudes<I: Instructions>(
         &self,
         position: &[f64],
         velocity: &[f64],
-        to: &mut Rows,
+        to: &mut [ComplexBlock],
     ) {
-        for o in (0..self.coupled_stride).step_by(LANES) {
-            let mut total = Complex::<Lanes<I>>::zero();
+        for (block, to) in to.iter_mut().enumerate().take(self.coupled_width) {
+            let mut total = to.lanes::<I>();
             for g in 0..self.groups {
-                let y = Lanes::<I>::of(position[g]);
-                total += self.left_position.lanes(g, o).scale(y);
-                total += self
-                    .left_velocity
-                    .lanes(g, o)
-                    .scale(Lanes::<I>::of(velocity[g]));
+                let (y, rate) = (Lanes::<I>::of(position[g]), Lanes::<I>::of(velocity[g]));
+                total = self.left_position(g)[block].lanes().scale_add(y, total);
+                total = self.left_velocity(g)[block].lanes().scale_add(rate, total);
             }
-            to.put(0, o, total);
+            to.put(total);
         }
     }
 
-    /// `Re sum_j shape_gj z_j` over the coupled exponents.
+    /// `Re sum_j shape_gj z_j` over the coupled exponents, for all groups.
     #[inline(always)]
-    pub(crate) fn group_sum<I: Instructions>(&self, group: usize, z: &Rows) -> f64 {
-        let mut total = Lanes::<I>::of(0.0);
-        for o in (0..self.coupled_stride).step_by(LANES) {
-            total += self.shape.lanes::<I>(group, o).real_product(z.lanes(0, o));
-        }
-        total.total()
-    }
-}
-
-/// How one local coordinate sees the motion of a phase.
-#[derive(Debug, Clone)]
-pub(crate) struct View {
-    /// Weight of each exponent's amplitude.
-    pub exponents: Rows,
-    /// Position at rest of the coupled groups.
-    pub rest: f64,
-    /// Weight of each single motion.
-    pub singles: Vec<f64>,
-}
-
-impl View {
-    #[inline(always)]
-    pub(crate) fn new<I: Instructions>(spectrum: &Spectrum, row: &[f64]) -> Self {
-        let mut combined = vec![0.0; spectrum.combinations];
-        spectrum.gather(row, &mut combined);
-        let mut exponents = Rows::zeros(1, spectrum.exponents());
-        for o in (0..spectrum.coupled_stride).step_by(LANES) {
-            let mut total = Complex::<Lanes<I>>::zero();
-            for (g, weight) in combined.iter().enumerate() {
-                total += spectrum.shape.lanes(g, o).scale(Lanes::<I>::of(*weight));
-            }
-            exponents.put(0, o, total);
-        }
-        let mut singles = Vec::with_capacity(spectrum.singles.len());
-        for single in &spectrum.singles {
-            let weight = match single.subject {
-                Subject::Mode(mode) => row[mode],
-                Subject::Combination => combined[0],
-            };
-            singles.push(weight);
-            for i in 0..single.motion.exponents().1 {
-                exponents.set(0, single.at + i, Complex::real(weight));
-            }
-        }
-        let rest = spectrum
-            .at_rest
-            .iter()
-            .zip(&combined)
-            .map(|(y, w)| y * w)
-            .sum();
-        Self {
-            exponents,
-            rest,
-            singles,
-        }
-    }
-}
-
-/// A law in a state that acts, with one local coordinate.
-#[derive(Debug, Clone)]
-pub(crate) struct Acting {
-    pub law: usize,
-    pub row: Vec<f64>,
-    pub constant: f64,
-    pub stiffness: f64,
-    pub damping: f64,
-}
-
-impl Acting {
-    fn new<L: Law>(problem: &Problem<L>, states: &[State]) -> Vec<Self> {
-        let mut acting = Vec::new();
-        for (index, (law, state)) in problem.laws.iter().zip(states).enumerate() {
-            let piece = law.piece(*state).unwrap_or(Piece::FREE);
-            for (i, row) in law.rows().iter().enumerate().take(COORDINATES) {
-                let alone = piece.constant[i] == 0.0
-                    && piece.stiffness[i] == [0.0; COORDINATES]
-                    && piece.damping[i] == [0.0; COORDINATES];
-                if !alone && row.iter().any(|r| *r != 0.0) {
-                    acting.push(Self {
-                        law: index,
-                        row: row.clone(),
-                        constant: piece.constant[i],
-                        stiffness: piece.stiffness[i][i],
-                        damping: piece.damping[i][i],
-                    });
+    pub(crate) fn group_sums<I: Instructions>(&self, z: &[ComplexBlock], to: &mut [f64]) {
+        for first in (0..self.groups).step_by(LANES) {
+            let mut sums = [Lanes::<I>::of(0.0); LANES];
+            let count = LANES.min(self.groups - first);
+            for (g, sum) in sums.iter_mut().enumerate().take(count) {
+                for (shape, z) in self.shape(first + g).iter().zip(z) {
+                    *sum = shape.lanes().add_real_product(z.lanes(), *sum);
                 }
             }
+            to[first..first + count].copy_from_slice(&Lanes::totals(sums)[..count]);
         }
-        acting
     }
 }
 
-struct Groups {
-    members: Vec<Member>,
-    coupling: Coupling,
-}
-
-/// Sorts the modes that a law sees and joins those that are alike.
+/// The largest of eight.
 #[inline(always)]
-fn group_alike<L: Law>(problem: &Problem<L>, law: &Acting) -> Groups {
-    let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
-    let mut order: Vec<usize> = (0..omega2.len()).filter(|&i| law.row[i] != 0.0).collect();
-    let sorted = order.windows(2).all(|w| omega2[w[0]] < omega2[w[1]]);
-    if !sorted {
-        order.sort_by(|&a, &b| {
-            (omega2[a].total_cmp(&omega2[b])).then(damping[a].total_cmp(&damping[b]))
-        });
-    }
-    let mut coupling = Coupling {
-        stiffness: law.stiffness,
-        stop_damping: law.damping,
-        ..Coupling::default()
-    };
-    let mut members: Vec<Member> = Vec::with_capacity(order.len());
-    for mode in order {
-        let alike = coupling.omega2.last() == Some(&omega2[mode])
-            && coupling.damping.last() == Some(&damping[mode]);
-        if !alike {
-            coupling.omega2.push(omega2[mode]);
-            coupling.damping.push(damping[mode]);
-            coupling.phi.push(0.0);
-        }
-        let group = coupling.omega2.len() - 1;
-        coupling.phi[group] = coupling.phi[group].hypot(law.row[mode]);
-        members.push(Member {
-            mode,
-            group,
-            weight: law.row[mode],
-        });
-    }
-    for member in &mut members {
-        member.weight /= coupling.phi[member.group];
-    }
-    // A mode alone in its group keeps its sign in phi, so that its weight is exactly one.
-    for group in 0..coupling.phi.len() {
-        let mut own = members.iter_mut().filter(|m| m.group == group);
-        if let (Some(only), None) = (own.next(), own.next()) {
-            only.weight = 1.0;
-            coupling.phi[group] = law.row[only.mode];
+fn largest<I: Instructions>(lanes: Lanes<I>) -> f64 {
+    let mut largest = f64::NEG_INFINITY;
+    for x in lanes.numbers() {
+        if x > largest {
+            largest = x;
         }
     }
-    Groups { members, coupling }
+    largest
 }
-
-/// Constant forces on the groups.
-fn group_forces<L: Law>(problem: &Problem<L>, members: &[Member], groups: usize) -> Vec<f64> {
-    let mut forces = vec![0.0; groups];
-    for m in members {
-        forces[m.group] += m.weight * problem.forcing.forces()[m.mode];
-    }
-    forces
-}
-
-/// Static position of the groups on the spring: `w_i^2 y_i = p_i + phi_i F`,
-/// `F = constant - k sum phi_i y_i`. The softest group's own row gives F, so that a rigid-body
-/// mode (stiffness zero) needs no special case. Further ones (of other damping) stay where they
-/// are if the forces on them balance; `None` if not.
-fn static_groups(coupling: &Coupling, forces: &[f64], constant: f64) -> Option<Vec<f64>> {
-    let Coupling {
-        omega2,
-        phi,
-        stiffness,
-        ..
-    } = coupling;
-    let soft = (0..omega2.len())
-        .min_by(|&a, &b| omega2[a].abs().total_cmp(&omega2[b].abs()))
-        .unwrap_or(0);
-    let others = || (0..omega2.len()).filter(|&i| i != soft && omega2[i] != 0.0);
-    let flexibility: f64 = others().map(|i| phi[i] * phi[i] / omega2[i]).sum();
-    let pushed: f64 = others().map(|i| phi[i] * forces[i] / omega2[i]).sum();
-    let compliance = flexibility + 1.0 / stiffness;
-    // phi_s y_s + compliance F = constant/k - pushed,  F = (w_s^2 y_s - p_s)/phi_s
-    let factor = phi[soft] + compliance * omega2[soft] / phi[soft];
-    let right = constant / stiffness - pushed + compliance * forces[soft] / phi[soft];
-    let y = right / factor;
-    let force = (omega2[soft] * y - forces[soft]) / phi[soft];
-    let pushed = |i: usize| forces[i] + phi[i] * force;
-    let balanced = |i: usize| pushed(i).abs() <= BALANCED * forces[i].abs();
-    (0..omega2.len())
-        .map(|i| match omega2[i] {
-            _ if i == soft => Some(y),
-            0.0 => balanced(i).then_some(0.0),
-            w2 => Some(pushed(i) / w2),
-        })
-        .collect()
-}
-
-/// Forces on a rigid-body mode are in balance when what is left of them is rounding.
-const BALANCED: f64 = 1e-12;
 
 /// Reciprocal, zero for zero (the padding of the lanes).
 #[inline(always)]

@@ -16,9 +16,15 @@ pub trait Instructions: Copy + 'static {
     fn sub(a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn mul(a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn div(a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// `a b + c`, rounded once.
+    fn mul_add(a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector;
+    /// `c - a b`, rounded once.
+    fn sub_mul(c: Self::Vector, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn sqrt(a: Self::Vector) -> Self::Vector;
     fn and(a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn xor(a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// The difference of the bits taken as whole numbers.
+    fn sub_bits(a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn shift_left<const N: u32>(a: Self::Vector) -> Self::Vector;
     fn select_less(
         a: Self::Vector,
@@ -26,6 +32,8 @@ pub trait Instructions: Copy + 'static {
         yes: Self::Vector,
         no: Self::Vector,
     ) -> Self::Vector;
+    /// The sums of eight vectors, each as [`super::Lanes::total`] adds its numbers.
+    fn totals(x: [Self::Vector; LANES]) -> Self::Vector;
 }
 
 /// Work that is compiled once for each instruction set.

@@ -16,7 +16,7 @@ pub const LANES: usize = 8;
 
 /// Eight numbers, each lane a [`Number`] of its own; `I` says by which instructions.
 ///
-/// All instruction sets give the same bits: none of them fuses, and sums have one order.
+/// All instruction sets give the same bits: what is fused is written so, and sums have one order.
 #[derive(Clone, Copy)]
 pub struct Lanes<I: Instructions>(I::Vector);
 
@@ -65,13 +65,50 @@ impl<I: Instructions> Lanes<I> {
         numbers
     }
 
+    /// `1/self` to ten digits, in a third of the time of a division; a large number for zero.
+    /// For the first steps of iterations.
+    #[inline(always)]
+    pub fn rough_recip(self) -> Self {
+        let one = Self::of(1.0);
+        // Bits of 1/x are nearly a constant less those of x: good to a twentieth.
+        let sign = Self(I::and(self.0, I::splat(-0.0)));
+        let size = self.xor(sign);
+        let start = Self(I::sub_bits(I::splat(NEARLY_TWICE_ONE), size.0));
+        let lack = one.sub_mul(size, start);
+        // Two steps of Newton at once, then one more.
+        let square = lack * lack;
+        let better = start.mul_add(lack, start);
+        let better = better.mul_add(square, better);
+        let lack = one.sub_mul(size, better);
+        better.mul_add(lack, better).xor(sign)
+    }
+
+    /// `1/self` to about an ulp, in half of the time of a division; no number for zero.
+    #[inline(always)]
+    pub fn recip(self) -> Self {
+        let rough = self.rough_recip();
+        let lack = Self::of(1.0).sub_mul(self, rough);
+        rough.mul_add(lack, rough)
+    }
+
     /// Sum of the lanes, pairwise, in one fixed order.
     #[inline(always)]
     pub fn total(self) -> f64 {
-        let a = self.numbers();
-        ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]))
+        plain::total(&self.numbers())
+    }
+
+    /// The sums of eight vectors, each as [`Lanes::total`] gives it.
+    #[inline(always)]
+    pub fn totals(x: [Self; LANES]) -> [f64; LANES] {
+        Self(I::totals([
+            x[0].0, x[1].0, x[2].0, x[3].0, x[4].0, x[5].0, x[6].0, x[7].0,
+        ]))
+        .numbers()
     }
 }
+
+/// Its bits less those of x are about those of 1/x, with the error spread evenly.
+const NEARLY_TWICE_ONE: f64 = f64::from_bits(0x7fde_6238_22fc_16e6);
 
 #[inline(always)]
 fn first_eight(from: &[f64]) -> &[f64; LANES] {
@@ -107,7 +144,7 @@ pub const fn padded(length: usize) -> usize {
 pub fn dot<I: Instructions>(a: &[Block], b: &[Block]) -> f64 {
     let mut total = Lanes::<I>::of(0.0);
     for (a, b) in a.iter().zip(b) {
-        total += Lanes::of_block(a) * Lanes::of_block(b);
+        total = Lanes::of_block(a).mul_add(Lanes::of_block(b), total);
     }
     total.total()
 }
@@ -151,6 +188,14 @@ impl<I: Instructions> Number for Lanes<I> {
     #[inline(always)]
     fn of(x: f64) -> Self {
         Self(I::splat(x))
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(I::mul_add(self.0, factor.0, term.0))
+    }
+    #[inline(always)]
+    fn sub_mul(self, a: Self, b: Self) -> Self {
+        Self(I::sub_mul(self.0, a.0, b.0))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -219,6 +264,11 @@ mod tests {
                 cos,
                 a.select_less(b, sin, cos),
                 Lanes::of((a * b).total()),
+                a.rough_recip(),
+                a.recip(),
+                a.mul_add(b, sin),
+                a.sub_mul(b, cos),
+                Lanes::new(Lanes::totals([a, b, sin, cos, a * b, -a, b.abs(), a + b])),
             ];
             results
                 .iter()
@@ -233,6 +283,15 @@ mod tests {
             a in prop::array::uniform8(-20.0f64..20.0), b in prop::array::uniform8(-20.0f64..20.0),
         ) {
             prop_assert_eq!(dispatch(Everything(a, b)), Everything(a, b).run::<Plain>());
+        }
+
+        #[test]
+        fn reciprocals_are_good(x in prop_oneof![1e-200f64..1e-3, 1e-3f64..1e3, 1e3f64..1e200], negative: bool) {
+            let x = if negative { -x } else { x };
+            let rough = Lanes::<Plain>::of(x).rough_recip().numbers()[0];
+            prop_assert!((rough * x - 1.0).abs() < 1e-10);
+            let fine = Lanes::<Plain>::of(x).recip().numbers()[0];
+            prop_assert!((fine * x - 1.0).abs() < 2.0 * f64::EPSILON);
         }
 
         #[test]

@@ -52,6 +52,14 @@ impl Instructions for Plain {
         each!(i => a[i] / b[i])
     }
     #[inline(never)]
+    fn mul_add(a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector {
+        fused(a, b, c)
+    }
+    #[inline(never)]
+    fn sub_mul(c: Self::Vector, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        fused(a.map(|a| -a), b, c)
+    }
+    #[inline(never)]
     fn sqrt(a: Self::Vector) -> Self::Vector {
         each!(i => a[i].sqrt())
     }
@@ -62,6 +70,10 @@ impl Instructions for Plain {
     #[inline(never)]
     fn xor(a: Self::Vector, b: Self::Vector) -> Self::Vector {
         each!(i => f64::from_bits(a[i].to_bits() ^ b[i].to_bits()))
+    }
+    #[inline(never)]
+    fn sub_bits(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        each!(i => f64::from_bits(a[i].to_bits().wrapping_sub(b[i].to_bits())))
     }
     #[inline(never)]
     fn shift_left<const N: u32>(a: Self::Vector) -> Self::Vector {
@@ -76,4 +88,24 @@ impl Instructions for Plain {
     ) -> Self::Vector {
         each!(i => if a[i] < b[i] { yes[i] } else { no[i] })
     }
+    #[inline(never)]
+    fn totals(x: [Self::Vector; LANES]) -> Self::Vector {
+        each!(i => total(&x[i]))
+    }
+}
+
+/// Sum of eight numbers, pairwise.
+#[inline(always)]
+pub(super) fn total(a: &[f64; LANES]) -> f64 {
+    ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]))
+}
+
+/// `a b + c`, rounded once: by the machine's own instruction where there is one, for the
+/// library's function takes many times as long.
+fn fused(a: [f64; LANES], b: [f64; LANES], c: [f64; LANES]) -> [f64; LANES] {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(sum) = super::x86::fused(a, b, c) {
+        return sum;
+    }
+    each!(i => a[i].mul_add(b[i], c[i]))
 }

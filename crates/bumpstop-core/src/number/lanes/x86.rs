@@ -11,8 +11,8 @@ pub(super) fn dispatch<W: Vectorised>(work: W) -> W::Output {
     if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
         // SAFETY: both features were just detected.
         unsafe { with_avx512(work) }
-    } else if is_x86_feature_detected!("avx2") {
-        // SAFETY: the feature was just detected.
+    } else if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        // SAFETY: both features were just detected.
         unsafe { with_avx2(work) }
     } else {
         work.run::<Plain>()
@@ -24,7 +24,18 @@ fn with_avx512<W: Vectorised>(work: W) -> W::Output {
     work.run::<Avx512>()
 }
 
-#[target_feature(enable = "avx2")]
+/// `a b + c` lane by lane, rounded once; `None` where the machine has no instruction for it.
+pub(super) fn fused(a: [f64; LANES], b: [f64; LANES], c: [f64; LANES]) -> Option<[f64; LANES]> {
+    // SAFETY: the feature is detected first.
+    is_x86_feature_detected!("fma").then(|| unsafe { with_fma(a, b, c) })
+}
+
+#[target_feature(enable = "fma")]
+fn with_fma(a: [f64; LANES], b: [f64; LANES], c: [f64; LANES]) -> [f64; LANES] {
+    std::array::from_fn(|i| a[i].mul_add(b[i], c[i]))
+}
+
+#[target_feature(enable = "avx2,fma")]
 fn with_avx2<W: Vectorised>(work: W) -> W::Output {
     work.run::<Avx2>()
 }
@@ -57,6 +68,7 @@ impl Instructions for Avx512 {
         sub(a, b) = _mm512_sub_pd;
         mul(a, b) = _mm512_mul_pd;
         div(a, b) = _mm512_div_pd;
+        mul_add(a, b, c) = _mm512_fmadd_pd;
         sqrt(a) = _mm512_sqrt_pd;
         and(a, b) = _mm512_and_pd;
         xor(a, b) = _mm512_xor_pd;
@@ -78,6 +90,16 @@ impl Instructions for Avx512 {
         unsafe { _mm512_storeu_pd(to.as_mut_ptr(), x) }
     }
     #[inline(always)]
+    fn sub_bits(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        // SAFETY: as above.
+        unsafe {
+            _mm512_castsi512_pd(_mm512_sub_epi64(
+                _mm512_castpd_si512(a),
+                _mm512_castpd_si512(b),
+            ))
+        }
+    }
+    #[inline(always)]
     fn shift_left<const N: u32>(a: Self::Vector) -> Self::Vector {
         // SAFETY: as above.
         unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<N>(_mm512_castpd_si512(a))) }
@@ -91,6 +113,49 @@ impl Instructions for Avx512 {
     ) -> Self::Vector {
         // SAFETY: as above.
         unsafe { _mm512_mask_blend_pd(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b), no, yes) }
+    }
+    #[inline(always)]
+    fn sub_mul(c: Self::Vector, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        // SAFETY: as above.
+        unsafe { _mm512_fnmadd_pd(a, b, c) }
+    }
+    #[inline(always)]
+    fn totals(x: [Self::Vector; LANES]) -> Self::Vector {
+        // SAFETY: as above.
+        unsafe {
+            // Numbers 0..4 plus 4..8 of two vectors, then pairs, then single ones.
+            let ab = halves_of(x[0], x[2]);
+            let cd = halves_of(x[4], x[6]);
+            let ef = halves_of(x[1], x[3]);
+            let gh = halves_of(x[5], x[7]);
+            let even = quarters_of(ab, cd);
+            let odd = quarters_of(ef, gh);
+            _mm512_add_pd(_mm512_unpacklo_pd(even, odd), _mm512_unpackhi_pd(even, odd))
+        }
+    }
+}
+
+/// `[a0 + a4, .., a3 + a7, b0 + b4, .., b3 + b7]`
+#[inline(always)]
+unsafe fn halves_of(a: __m512d, b: __m512d) -> __m512d {
+    // SAFETY: reached through `Avx512::totals` alone.
+    unsafe {
+        _mm512_add_pd(
+            _mm512_shuffle_f64x2::<0b01_00_01_00>(a, b),
+            _mm512_shuffle_f64x2::<0b11_10_11_10>(a, b),
+        )
+    }
+}
+
+/// Of `[a, a', b, b']` and `[c, c', d, d']`, each a pair: `[a + a', b + b', c + c', d + d']`.
+#[inline(always)]
+unsafe fn quarters_of(ab: __m512d, cd: __m512d) -> __m512d {
+    // SAFETY: reached through `Avx512::totals` alone.
+    unsafe {
+        _mm512_add_pd(
+            _mm512_shuffle_f64x2::<0b10_00_10_00>(ab, cd),
+            _mm512_shuffle_f64x2::<0b11_01_11_01>(ab, cd),
+        )
     }
 }
 
@@ -113,6 +178,7 @@ impl Instructions for Avx2 {
         sub(a, b) = _mm256_sub_pd;
         mul(a, b) = _mm256_mul_pd;
         div(a, b) = _mm256_div_pd;
+        mul_add(a, b, c) = _mm256_fmadd_pd;
         sqrt(a) = _mm256_sqrt_pd;
         and(a, b) = _mm256_and_pd;
         xor(a, b) = _mm256_xor_pd;
@@ -144,6 +210,15 @@ impl Instructions for Avx2 {
         }
     }
     #[inline(always)]
+    fn sub_bits(a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        // SAFETY: as above.
+        let half = |i: usize| unsafe {
+            let difference = _mm256_sub_epi64(_mm256_castpd_si256(a[i]), _mm256_castpd_si256(b[i]));
+            _mm256_castsi256_pd(difference)
+        };
+        [half(0), half(1)]
+    }
+    #[inline(always)]
     fn shift_left<const N: u32>(a: Self::Vector) -> Self::Vector {
         // SAFETY: as above.
         let shift = |x: __m256d| unsafe {
@@ -165,6 +240,40 @@ impl Instructions for Avx2 {
         };
         [half(0), half(1)]
     }
+    #[inline(always)]
+    fn sub_mul(c: Self::Vector, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        // SAFETY: as above.
+        let half = |i: usize| unsafe { _mm256_fnmadd_pd(a[i], b[i], c[i]) };
+        [half(0), half(1)]
+    }
+    #[inline(always)]
+    fn totals(x: [Self::Vector; LANES]) -> Self::Vector {
+        // SAFETY: as above.
+        unsafe {
+            [
+                four_totals([x[0], x[1], x[2], x[3]]),
+                four_totals([x[4], x[5], x[6], x[7]]),
+            ]
+        }
+    }
+}
+
+/// The sums of four vectors.
+#[inline(always)]
+unsafe fn four_totals(x: [[__m256d; 2]; 4]) -> __m256d {
+    // SAFETY: reached through `Avx2::totals` alone.
+    unsafe {
+        let half = |x: [__m256d; 2]| _mm256_add_pd(x[0], x[1]);
+        let quarter = |a: __m256d, b: __m256d| {
+            _mm256_add_pd(
+                _mm256_permute2f128_pd::<0x20>(a, b),
+                _mm256_permute2f128_pd::<0x31>(a, b),
+            )
+        };
+        let even = quarter(half(x[0]), half(x[2]));
+        let odd = quarter(half(x[1]), half(x[3]));
+        _mm256_add_pd(_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd))
+    }
 }
 
 #[cfg(test)]
@@ -181,17 +290,19 @@ mod tests {
             let x = Lanes::<I>::new(self.0);
             let (sin, cos) = x.sin_cos();
             let mixed = (sin * cos - x / cos).select_less(x.exp(), -x.sqrt(), x.abs());
-            mixed.max(sin).numbers().map(f64::to_bits)
+            let fused = mixed.max(sin).mul_add(cos, x).sub_mul(sin, cos);
+            let rough = fused.rough_recip();
+            Lanes::totals([x, sin, cos, mixed, fused, -x, cos, rough]).map(f64::to_bits)
         }
     }
 
     #[test]
     fn avx2_gives_the_bits_of_plain_arithmetic() {
-        if !is_x86_feature_detected!("avx2") {
+        if !(is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")) {
             return;
         }
         let numbers = [0.0, -1.5, 2.25, 1e-9, 300.0, -0.1, 17.0, 1e6];
-        // SAFETY: the feature was just detected.
+        // SAFETY: both features were just detected.
         let found = unsafe { with_avx2(Mix(numbers)) };
         assert_eq!(found, Mix(numbers).run::<Plain>());
     }

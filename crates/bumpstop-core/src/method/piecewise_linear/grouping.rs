@@ -1,0 +1,169 @@
+//! Which laws act, and which modes they couple.
+
+use super::secular::Coupling;
+use super::spectrum::Member;
+use crate::law::{COORDINATES, Law, Piece, State};
+use crate::problem::Problem;
+
+/// A law in a state that acts along one local coordinate.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Acting {
+    pub law: usize,
+    pub coordinate: usize,
+    pub constant: f64,
+    pub stiffness: f64,
+    pub damping: f64,
+}
+
+impl Acting {
+    /// Its row, which projects modal displacements to the local coordinate.
+    #[inline(always)]
+    pub(crate) fn row<'a, L: Law>(&self, problem: &'a Problem<L>) -> &'a [f64] {
+        &problem.laws[self.law].rows()[self.coordinate]
+    }
+
+    /// Lists what acts in the given states.
+    pub(crate) fn list<L: Law>(problem: &Problem<L>, states: &[State], to: &mut Vec<Self>) {
+        to.clear();
+        for (index, (law, state)) in problem.laws.iter().zip(states).enumerate() {
+            let piece = law.piece(*state).unwrap_or(Piece::FREE);
+            for (i, row) in law.rows().iter().enumerate().take(COORDINATES) {
+                let alone = piece.constant[i] == 0.0
+                    && piece.stiffness[i] == [0.0; COORDINATES]
+                    && piece.damping[i] == [0.0; COORDINATES];
+                if !alone && row.iter().any(|r| *r != 0.0) {
+                    to.push(Self {
+                        law: index,
+                        coordinate: i,
+                        constant: piece.constant[i],
+                        stiffness: piece.stiffness[i][i],
+                        damping: piece.damping[i][i],
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// Sorts the modes that a law sees and joins those that are alike (same `omega2`, same damping)
+/// to groups.
+#[inline(always)]
+pub(crate) fn group_alike<L: Law>(
+    problem: &Problem<L>,
+    law: &Acting,
+    order: &mut Vec<usize>,
+    coupling: &mut Coupling,
+    members: &mut Vec<Member>,
+) {
+    let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
+    let row = law.row(problem);
+    order.clear();
+    let mut sorted = true;
+    for i in 0..omega2.len() {
+        if row[i] != 0.0 {
+            sorted &= order.last().is_none_or(|&last| omega2[last] < omega2[i]);
+            order.push(i);
+        }
+    }
+    coupling.start(law.stiffness, law.damping);
+    members.clear();
+    members.reserve(order.len());
+    if sorted {
+        for &mode in order.iter() {
+            members.push(Member {
+                mode,
+                group: coupling.push(omega2[mode], damping[mode], row[mode]),
+                weight: 1.0,
+            });
+        }
+        return;
+    }
+    order.sort_by(|&a, &b| {
+        (omega2[a].total_cmp(&omega2[b])).then(damping[a].total_cmp(&damping[b]))
+    });
+    let alike = |a: usize, b: usize| omega2[a] == omega2[b] && damping[a] == damping[b];
+    for same in order.chunk_by(|&a, &b| alike(a, b)) {
+        let size2: f64 = same.iter().map(|&mode| row[mode] * row[mode]).sum();
+        // A mode alone in its group keeps its sign in phi, so that its weight is exactly one.
+        let phi = match same {
+            [only] => row[*only],
+            _ => size2.sqrt(),
+        };
+        let group = coupling.push(omega2[same[0]], damping[same[0]], phi);
+        members.extend(same.iter().map(|&mode| Member {
+            mode,
+            group,
+            weight: row[mode] / phi,
+        }));
+    }
+}
+
+/// Constant forces on the groups.
+#[inline(always)]
+pub(crate) fn group_forces(modal: &[f64], members: &[Member], groups: usize, to: &mut Vec<f64>) {
+    to.clear();
+    to.resize(groups, 0.0);
+    for m in members {
+        to[m.group] += m.weight * modal[m.mode];
+    }
+}
+
+/// Static position of the groups on the spring: `w_i^2 y_i = p_i + phi_i F`,
+/// `F = constant - k sum phi_i y_i`. The softest group's own row gives F, so that a rigid-body
+/// mode (stiffness zero) needs no special case. Further ones (of other damping) stay where they
+/// are if the forces on them balance; `false` if not.
+#[inline(always)]
+pub(crate) fn static_groups(
+    coupling: &Coupling,
+    forces: &[f64],
+    constant: f64,
+    to: &mut Vec<f64>,
+) -> bool {
+    let Coupling {
+        omega2,
+        phi,
+        stiffness,
+        ..
+    } = coupling;
+    to.clear();
+    if constant == 0.0 && forces.iter().all(|force| *force == 0.0) {
+        to.resize(omega2.len(), 0.0);
+        return true;
+    }
+    let mut soft = 0;
+    for i in 1..omega2.len() {
+        if omega2[i].abs() < omega2[soft].abs() {
+            soft = i;
+        }
+    }
+    let (mut flexibility, mut pushed) = (0.0, 0.0);
+    for i in 0..omega2.len() {
+        if i != soft && omega2[i] != 0.0 {
+            let share = phi[i] / omega2[i];
+            flexibility += phi[i] * share;
+            pushed += share * forces[i];
+        }
+    }
+    let compliance = flexibility + 1.0 / stiffness;
+    // phi_s y_s + compliance F = constant/k - pushed,  F = (w_s^2 y_s - p_s)/phi_s
+    let factor = phi[soft] + compliance * omega2[soft] / phi[soft];
+    let right = constant / stiffness - pushed + compliance * forces[soft] / phi[soft];
+    let y = right / factor;
+    let force = (omega2[soft] * y - forces[soft]) / phi[soft];
+    for i in 0..omega2.len() {
+        let pushed = forces[i] + phi[i] * force;
+        if i == soft {
+            to.push(y);
+        } else if omega2[i] != 0.0 {
+            to.push(pushed / omega2[i]);
+        } else if pushed.abs() <= BALANCED * forces[i].abs() {
+            to.push(0.0);
+        } else {
+            return false;
+        }
+    }
+    true
+}
+
+/// Forces on a rigid-body mode are in balance when what is left of them is rounding.
+const BALANCED: f64 = 1e-12;

@@ -1,0 +1,113 @@
+//! Complex numbers in whole lanes.
+
+use crate::number::{Block, Complex, Instructions, LANES, Lanes};
+
+/// Eight complex numbers side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))] // a line of the cache, so that no register is loaded from two
+pub(crate) struct ComplexBlock {
+    pub re: Block,
+    pub im: Block,
+}
+
+impl ComplexBlock {
+    pub(crate) const ZERO: Self = Self {
+        re: [0.0; LANES],
+        im: [0.0; LANES],
+    };
+
+    pub(crate) const ONE: Self = Self {
+        re: [1.0; LANES],
+        im: [0.0; LANES],
+    };
+
+    #[inline(always)]
+    pub(crate) fn lanes<I: Instructions>(&self) -> Complex<Lanes<I>> {
+        Complex::new(Lanes::of_block(&self.re), Lanes::of_block(&self.im))
+    }
+
+    #[inline(always)]
+    pub(crate) fn put<I: Instructions>(&mut self, value: Complex<Lanes<I>>) {
+        value.re.to_block(&mut self.re);
+        value.im.to_block(&mut self.im);
+    }
+}
+
+/// Eight real numbers side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub(crate) struct RealBlock(pub Block);
+
+impl RealBlock {
+    pub(crate) const ZERO: Self = Self([0.0; LANES]);
+    pub(crate) const ONE: Self = Self([1.0; LANES]);
+
+    #[inline(always)]
+    pub(crate) fn lanes<I: Instructions>(&self) -> Lanes<I> {
+        Lanes::of_block(&self.0)
+    }
+
+    #[inline(always)]
+    pub(crate) fn put<I: Instructions>(&mut self, value: Lanes<I>) {
+        value.to_block(&mut self.0);
+    }
+}
+
+/// The entry of a row of blocks.
+#[inline(always)]
+pub(crate) fn entry(row: &[ComplexBlock], column: usize) -> Complex<f64> {
+    let block = &row[column / LANES];
+    Complex::new(block.re[column % LANES], block.im[column % LANES])
+}
+
+/// Sets an entry of a row of blocks.
+#[inline(always)]
+pub(crate) fn set_entry(row: &mut [ComplexBlock], column: usize, value: Complex<f64>) {
+    let block = &mut row[column / LANES];
+    block.re[column % LANES] = value.re;
+    block.im[column % LANES] = value.im;
+}
+
+/// Rows of equal length.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rows {
+    blocks: Vec<ComplexBlock>,
+    width: usize,
+}
+
+impl Rows {
+    pub(crate) fn zeros(rows: usize, width: usize) -> Self {
+        Self {
+            blocks: vec![ComplexBlock::ZERO; rows * width],
+            width,
+        }
+    }
+
+    /// Takes another size; all entries become zero.
+    #[inline(always)]
+    pub(crate) fn reset(&mut self, rows: usize, width: usize) {
+        self.blocks.clear();
+        self.blocks.resize(rows * width, ComplexBlock::ZERO);
+        self.width = width;
+    }
+
+    /// Numbers in all rows.
+    pub(crate) fn numbers(&self) -> usize {
+        2 * LANES * self.blocks.len()
+    }
+
+    /// Blocks in a row.
+    pub(crate) fn width(&self) -> usize {
+        self.width
+    }
+
+    #[inline(always)]
+    pub(crate) fn row(&self, row: usize) -> &[ComplexBlock] {
+        &self.blocks[row * self.width..][..self.width]
+    }
+
+    #[inline(always)]
+    pub(crate) fn row_mut(&mut self, row: usize) -> &mut [ComplexBlock] {
+        &mut self.blocks[row * self.width..][..self.width]
+    }
+}

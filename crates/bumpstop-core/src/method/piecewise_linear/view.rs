@@ -1,0 +1,57 @@
+//! How local coordinates see the motion of a phase.
+
+use super::rows::{ComplexBlock, set_entry};
+use super::spectrum::{Spectrum, Subject};
+use crate::number::{Complex, Instructions, Lanes, Number};
+
+/// How one local coordinate sees the motion of a phase.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct View {
+    /// Weight of each exponent's amplitude.
+    pub exponents: Vec<ComplexBlock>,
+    /// Position at rest of the coupled groups.
+    pub rest: f64,
+    /// Weight of each single motion.
+    pub singles: Vec<f64>,
+}
+
+impl View {
+    /// Sets the view of `row . q`; `combined` is room for the groups' share of the row.
+    #[inline(always)]
+    pub(crate) fn set<I: Instructions>(
+        &mut self,
+        spectrum: &Spectrum,
+        row: &[f64],
+        combined: &mut Vec<f64>,
+    ) {
+        combined.clear();
+        combined.resize(spectrum.combinations, 0.0);
+        spectrum.gather(row, combined);
+        self.exponents.clear();
+        self.exponents
+            .resize(spectrum.lambda.len(), ComplexBlock::ZERO);
+        self.rest = 0.0;
+        for b in 0..spectrum.coupled_width {
+            let mut total = Complex::<Lanes<I>>::zero();
+            for (g, weight) in combined.iter().enumerate().take(spectrum.groups) {
+                let weight = Lanes::<I>::of(*weight);
+                total = spectrum.shape(g)[b].lanes().scale_add(weight, total);
+            }
+            self.exponents[b].put(total);
+        }
+        for (position, weight) in spectrum.at_rest.iter().zip(combined.iter()) {
+            self.rest += position * weight;
+        }
+        self.singles.clear();
+        for single in &spectrum.singles {
+            let weight = match single.subject {
+                Subject::Mode(mode) => row[mode],
+                Subject::Combination => combined[0],
+            };
+            self.singles.push(weight);
+            for i in 0..single.motion.exponents().1 {
+                set_entry(&mut self.exponents, single.at + i, Complex::real(weight));
+            }
+        }
+    }
+}
