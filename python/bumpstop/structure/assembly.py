@@ -16,7 +16,7 @@ from bumpstop.structure.pattern import Pattern
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 from bumpstop.structure.strains import strains_of
 
-__all__ = ["KINDS", "Assembly", "Block", "Contribution", "Part"]
+__all__ = ["KINDS", "Assembler", "Block", "Contribution", "Part"]
 
 KINDS = ("stiffness", "mass", "damping", "gyroscopic", "circulatory")
 """The matrices of a structure, by the names of its attributes."""
@@ -97,7 +97,7 @@ class Part(Protocol):
         """Return the part's matrices on nodes of ``mesh``."""
 
 
-class Assembly:
+class Assembler:
     """Adds up the matrices of parts.
 
     Parameters

@@ -37,14 +37,17 @@ def beam_blocks(beams: Sequence[Beam], mesh: Mesh) -> list[Contribution]:
         If a beam has no length.
     """
     alike: dict[tuple[object, ...], list[Beam]] = {}
+    varying = []
     for beam in beams:
+        if beam.varies:
+            varying.append(beam)
+            continue
         kind = THEORIES[beam.theory].element, beam.mass, beam.tension != 0.0
-        if not beam.varies:
-            alike.setdefault(kind, []).append(beam)
+        alike.setdefault(kind, []).append(beam)
     plain = [
         PrismaticBeams(tuple(some), mesh) for group in alike.values() for some in _portions(group)
     ]
-    blocks = [*plain, *(VaryingBeam((beam,), mesh) for beam in beams if beam.varies)]
+    blocks = [*plain, *(VaryingBeam((beam,), mesh) for beam in varying)]
     for block in blocks:
         block.require_length()
     return list(blocks)
@@ -113,19 +116,17 @@ class PrismaticBeams:
         return of_beams[self._beam]
 
     def massive(self) -> NDArray[np.bool_]:
-        """Return which dofs of every element have inertia in whatever way they move, (12,).
+        """Return which dofs of every element have inertia in whatever way they move, (12,)."""
+        turns = THEORIES[self.beams[0].theory].bends
+        return np.repeat([True, turns, True, turns], 3)
 
-        Those of a node's three displacements, or three rotations, that all have mass along
-        the beam's own axes; then they have it along any.
-        """
-        with np.errstate(all="ignore"):
-            heavy = self._local("mass").diagonal(axis1=1, axis2=2).all(axis=0)
-        return heavy.reshape(4, 3).all(axis=1).repeat(3)
+    @cached_property
+    def _spins(self) -> bool:
+        return any(beam.spin != 0.0 for beam in self.beams)
 
     def has(self, kind: str) -> bool:
         """Tell whether the beams have such a matrix."""
-        spinning = any(beam.spin != 0.0 for beam in self.beams)
-        return kind in ("stiffness", "mass") or (kind == "gyroscopic" and spinning)
+        return kind in ("stiffness", "mass") or (kind == "gyroscopic" and self._spins)
 
     def matrix(self, kind: str) -> FloatArray:
         """Return the matrices of all elements in global axes, (elements, 12, 12).

@@ -10,7 +10,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, did_you_mean, one_of
 from bumpstop.errors import InputError, blamed
-from bumpstop.structure.assembly import KINDS, Assembly, Part
+from bumpstop.structure.assembly import KINDS, Assembler, Part
 from bumpstop.structure.beam import Beam
 from bumpstop.structure.beam_blocks import beam_blocks
 from bumpstop.structure.bearing import Bearing
@@ -283,10 +283,10 @@ class Structure:
         return zeros
 
     @cached_property
-    def _assembly(self) -> Assembly:
+    def _assembly(self) -> Assembler:
         parts: list[Part] = [*self.masses, *self.springs, *self.bearings]
         blocks = [part.block(self.mesh) for part in parts]
-        return Assembly([*beam_blocks(self.beams, self.mesh), *blocks], len(self.mesh.names))
+        return Assembler([*beam_blocks(self.beams, self.mesh), *blocks], len(self.mesh.names))
 
     def _beam_point(self, node: str) -> tuple[Beam, float] | None:
         """Return the beam and the distance along it that a point's name tells."""
