@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from bumpstop.arguments import FloatArray
 from bumpstop.cli.console import Table, print_json, print_line, print_table
+from bumpstop.errors import InputError
 from bumpstop.io.case import load_case
 from bumpstop.modal.basis import ModalBasis, mode_labels
 from bumpstop.modal.masses import generalised_mass, participation
@@ -129,7 +130,10 @@ def _whirl(basis: ModalBasis, modes: ComplexModes) -> FloatArray | None:
     """Return how the motions turn about the axis of the spin, where something spins."""
     if basis.model is None or basis.gyroscopic is None:
         return None
-    momentum = angular_momentum(basis.model)
+    try:
+        momentum = angular_momentum(basis.model)
+    except InputError:  # matrices from elsewhere, with positions that are not known
+        return None
     return modes.whirl(momentum.tolist()) if momentum.any() else None
 
 

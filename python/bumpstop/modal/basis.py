@@ -5,27 +5,28 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray, did_you_mean, not_negative, one_of, series
 from bumpstop.errors import InputError
 from bumpstop.modal.certificate import SturmCount
-from bumpstop.modal.companions import companions
-from bumpstop.modal.coordinates import UserCoordinates, scaled_coordinates
 from bumpstop.modal.damping import Damping, angular_frequencies, modal_damping, with_companions
 from bumpstop.modal.eigen import model_modes
 from bumpstop.modal.given import given_labels, given_vectors, modal_masses
-from bumpstop.modal.places import Place
 from bumpstop.modal.projected import projected
 from bumpstop.modal.rigid_modes import require_rigid_modes
 from bumpstop.modal.selection import ModeSelection, mode_selection
-from bumpstop.modal.vectors import canonical_vectors
-from bumpstop.structure.dofs import DOFS, Dof
+from bumpstop.structure.dofs import DOFS, Dof, Place
 from bumpstop.structure.free_motions import free_motions
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.model import LinearModel, StrainModel
 from bumpstop.structure.structure import Structure
+
+# What a run from a structure's modes alone has no use for is imported where it is used.
+if TYPE_CHECKING:
+    from bumpstop.modal.coordinates import UserCoordinates
 
 __all__ = ["COMBINATION", "ModalBasis", "mode_labels"]
 
@@ -146,6 +147,12 @@ class ModalBasis:
         """
         require_rigid_modes(structure, rigid_modes)
         omega2, shapes, sturm = model_modes(structure, mode_selection(modes))
+        if not (static_shapes or constraint_shapes or base_shapes):
+            ratios = with_companions(damping, static_damping, len(omega2), 0)
+            plain = cls._from_shapes(structure, omega2, shapes, ratios, damping_coupling)
+            return replace(plain, sturm=sturm)
+        from bumpstop.modal.companions import companions
+
         beside = companions(
             structure,
             shapes,
@@ -218,6 +225,8 @@ class ModalBasis:
         array([[0.5, 0. ],
                [0. , 0.5]])
         """
+        from bumpstop.modal.vectors import canonical_vectors
+
         given = given_vectors(model, vectors)
         names = given_labels(labels, given.shape[1])
         rigid = model.expansion @ model.rigid_shapes()
@@ -294,6 +303,8 @@ class ModalBasis:
         >>> basis.row("P", "dx")
         array([1. , 0.4])
         """
+        from bumpstop.modal.coordinates import scaled_coordinates
+
         hertz = [not_negative("frequency", value) for value in series("frequency", frequency)]
         rows = [_components(key, values, len(hertz)) for key, values in _items(shapes)]
         omega2 = (2.0 * np.pi * np.array(hertz)) ** 2

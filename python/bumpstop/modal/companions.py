@@ -10,10 +10,10 @@ import numpy as np
 from bumpstop.arguments import FloatArray, listed, one_of
 from bumpstop.modal.coordinates import UserCoordinates
 from bumpstop.modal.independent import NEGLIGIBLE, mass_norms, without
-from bumpstop.modal.places import Place, resolved_places, told_as
+from bumpstop.modal.places import resolved_places, told_as
 from bumpstop.modal.static_shapes import StaticShapes
 from bumpstop.modal.vectors import canonical_vectors
-from bumpstop.structure.dofs import DOFS
+from bumpstop.structure.dofs import DOFS, Place
 from bumpstop.structure.model import LinearModel
 
 __all__ = ["Companions", "companions"]

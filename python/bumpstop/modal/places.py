@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 
@@ -15,10 +14,7 @@ from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.model import InertiaModel, LinearModel
 
-__all__ = ["Place", "ResolvedPlace", "resolved_places", "told_as"]
-
-Place: TypeAlias = tuple[str, str | Sequence[float]]
-"""A node and a dof, ``("B", "dy")``, or a node and a direction, ``("B", (0, 0.6, 0.8))``."""
+__all__ = ["ResolvedPlace", "resolved_places", "told_as"]
 
 AXES = DOFS[:3]
 

@@ -15,10 +15,11 @@ import numpy as np
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import InputError
 from bumpstop.modal.independent import independent_vectors, mass_norms, without
-from bumpstop.modal.places import Place, ResolvedPlace, resolved_places
+from bumpstop.modal.places import ResolvedPlace, resolved_places
 from bumpstop.modal.solve import StaticSolver
 from bumpstop.modal.unit_motion import unit_motion
 from bumpstop.modal.vectors import RIGID
+from bumpstop.structure.dofs import Place
 from bumpstop.structure.model import LinearModel
 from bumpstop.structure.sparse import SparseMatrix
 

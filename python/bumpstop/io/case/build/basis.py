@@ -11,7 +11,7 @@ from bumpstop.modal.basis import ModalBasis
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
-    from bumpstop.modal.places import Place
+    from bumpstop.structure.dofs import Place
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["built_basis", "static_places"]

@@ -9,8 +9,7 @@ from bumpstop.io.case.fields.plain import Plain, read_list
 from bumpstop.io.case.fields.quantities import read_number
 from bumpstop.io.case.fields.words import choice, read_node
 from bumpstop.io.units import Dimension
-from bumpstop.modal.places import Place
-from bumpstop.structure.dofs import DOFS
+from bumpstop.structure.dofs import DOFS, Place
 
 __all__ = ["Modes", "Places", "PlacesOrStops"]
 
