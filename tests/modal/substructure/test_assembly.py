@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 from bumpstop import (
     Assembly,
     Beam,
+    Bearing,
+    Circle,
     Component,
     Gauge,
     Gravity,
@@ -22,10 +24,12 @@ from bumpstop import (
     ModalBasis,
     NodalForce,
     Placed,
+    PointMass,
     Problem,
     Rectangle,
     RigidRotation,
     Rotation,
+    Spring,
     Stop,
     Structure,
     Support,
@@ -268,6 +272,77 @@ def test_matrices_from_elsewhere_make_components() -> None:
         Assembly(parts={"left": Placed(parts["left"].component, rotation=Rotation((0, 0, 1), 0.1))})
     with pytest.raises(InputError, match="the component has no beams"):
         basis.gauge_row(Gauge("g", beam="left.AB", at=0.0, fibre=(0, 0)))
+
+
+def shaft(axes: Any, at: Any) -> Structure:
+    """A spinning shaft in a bearing, with a damped spring, built along the first of the axes."""
+    places = {node: tuple(at + axes[:, 0] * x) for node, x in (("A", 0.0), ("B", 0.5), ("C", 1.0))}
+    round_bar = Circle(radius=0.02)
+    return Structure(
+        nodes=places,
+        beams=[
+            Beam(name, nodes=tuple(name), elements=2, material=STEEL, section=round_bar, spin=300.0)
+            for name in ("AB", "BC")
+        ],
+        bearings=[Bearing("film", node="A", axis=tuple(axes[:, 0]), stiffness=1e7, damping=1e3)],
+        springs=[Spring("mount", node="C", other="B", stiffness=1e5, damping=30.0)],
+    )
+
+
+@pytest.mark.parametrize("reduction", [craig_bampton, free_interface])
+def test_damping_and_spin_turn_with_their_component(reduction: Any) -> None:
+    way, at = Rotation(axis=(1, 2, 3), angle=0.8), (1.0, 2.0, 3.0)
+    component = Component(shaft(np.eye(3), np.zeros(3)), interface=["A", "C"])
+    placed = Placed(reduction(component, modes="all"), at=at, rotation=way)
+    turned = Assembly(parts={"shaft": placed})
+    built = shaft(way.matrix, np.array(at))
+    size = len(built.dofs)
+    for kind in ("stiffness", "mass", "damping", "gyroscopic"):
+        expected = getattr(built, kind).to_dense()
+        found = getattr(turned, kind).to_dense()[:size, :size]
+        np.testing.assert_allclose(found, expected, atol=1e-13 * np.abs(expected).max())
+        sign = getattr(turned, kind).mirror_sign()
+        assert sign == (-1.0 if kind == "gyroscopic" else 1.0)
+    one, other = (ModalBasis.from_structure(model, modes="all") for model in (turned, built))
+    np.testing.assert_allclose(one.omega2, other.omega2, rtol=1e-9)
+    # Modes of equal frequency may be combined in any way; what they damp together stays.
+    assert one.damping_matrix is not None
+    assert other.damping_matrix is not None
+    np.testing.assert_allclose(
+        np.linalg.eigvalsh(one.damping_matrix),
+        np.linalg.eigvalsh(other.damping_matrix),
+        atol=1e-10 * float(np.abs(other.damping_matrix).max()),
+    )
+
+
+def test_dofs_that_follow_others_are_no_interface_unless_left_out() -> None:
+    # The masses have no inertia in rotation: what the spring makes of it follows the rest.
+    pair = Structure(
+        nodes={"A": (0, 0, 0), "B": (1, 0, 0)},
+        masses=[PointMass("a", node="A", mass=1.0), PointMass("b", node="B", mass=2.0)],
+        springs=[Spring("s", node="A", other="B", stiffness=(1e4, 1e4, 1e4, 10.0, 10.0, 10.0))],
+    )
+    with pytest.raises(InputError, match=r"dr. follows other dofs, by a relation or because"):
+        Component(pair, interface=["A", "B"])
+    ends = [(node, ("dx", "dy", "dz")) for node in ("A", "B")]
+    reduced = craig_bampton(Component(pair, interface=ends), modes=0)
+    row = Assembly(
+        parts={"one": Placed(reduced), "two": Placed(reduced, at=(1, 0, 0))},
+        joints=[("one.B", "two.A")],
+    )
+    whole = Structure(
+        nodes={"A": (0, 0, 0), "B": (1, 0, 0), "C": (2, 0, 0)},
+        masses=[PointMass(n, node=n, mass=m) for n, m in (("A", 1.0), ("B", 3.0), ("C", 2.0))],
+        springs=[
+            Spring(a + b, node=a, other=b, stiffness=(1e4, 0.0, 0.0, 0.0, 0.0, 0.0))
+            for a, b in ("AB", "BC")
+        ],
+        supports=[Support(nodes="all", fixed=("dy", "dz"))],
+    )
+    expected = ModalBasis.from_structure(whole, modes=3).omega2
+    found = ModalBasis.from_structure(row, modes="all").omega2
+    for value in expected[1:]:
+        assert np.isclose(found, value, rtol=1e-10).any()
 
 
 def test_what_lies_together_is_joined_where_that_is_asked_for(bay: Bay) -> None:

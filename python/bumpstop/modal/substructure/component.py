@@ -38,7 +38,7 @@ class Component:
     ------
     InputError
         If there is no interface, a node or dof is unknown, named twice, held by the
-        component's own supports or led by other dofs through a relation.
+        component's own supports or led by other dofs.
 
     Examples
     --------
@@ -138,6 +138,6 @@ class Component:
             return
         what, hint = f"{dof} is held by the component's own supports", "take that support away"
         if row in self._moving:
-            what = f"{dof} follows other dofs through a relation"
-            hint = "let the interface's node lead"
+            what = f"{dof} follows other dofs, by a relation or because it has no inertia"
+            hint = "name the dofs at which the node can be joined, or let it lead"
         raise InputError(what, key="interface", value=node, hint=hint)
