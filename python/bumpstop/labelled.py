@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.quantities import QUANTITIES
+from bumpstop.quantities import QUANTITIES, modal_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -60,5 +60,5 @@ def modes_over_time(
         dims=("time", "mode"),
         coords=coordinates,
         name=quantity,
-        attrs=QUANTITIES[quantity].attributes,
+        attrs=modal_attributes(quantity, unit_mass=basis.coordinates is None),
     )

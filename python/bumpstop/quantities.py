@@ -6,7 +6,15 @@ from typing import NamedTuple
 
 from bumpstop.structure.dofs import DOFS
 
-__all__ = ["ENERGIES", "IMPACTS", "QUANTITIES", "STOP_ENERGIES", "Quantity", "dof_units"]
+__all__ = [
+    "ENERGIES",
+    "IMPACTS",
+    "QUANTITIES",
+    "STOP_ENERGIES",
+    "Quantity",
+    "dof_units",
+    "modal_attributes",
+]
 
 
 class Quantity(NamedTuple):
@@ -81,3 +89,17 @@ def dof_units(quantity: str, dof: str) -> str:
     """
     units = QUANTITIES[quantity].units
     return units if dof in DOFS[:3] else units.replace("m", "rad", 1)
+
+
+def modal_attributes(quantity: str, *, unit_mass: bool) -> dict[str, str]:
+    """Return unit and long name of a modal displacement, velocity or acceleration.
+
+    Amplitudes of vectors that a user gave in some scale of theirs have no unit that we know.
+
+    >>> modal_attributes("modal_displacement", unit_mass=False)
+    {'long_name': 'modal displacement, in the scale of the vectors given'}
+    """
+    if unit_mass:
+        return QUANTITIES[quantity].attributes
+    long_name = QUANTITIES[quantity].long_name
+    return {"long_name": f"{long_name}, in the scale of the vectors given"}

@@ -157,6 +157,7 @@ def test_vectors_of_the_user_have_their_own_names(tmp_path: Path) -> None:
         assert file["vector"].values.tolist() == ["sum", "difference", "m3"]
         speed = file["modal_velocity"]
         assert speed.dims == ("time", "vector")
+        assert "units" not in speed.attrs
         np.testing.assert_allclose(speed[0], [0.0, 0.5, 0.0], atol=1e-14)
         assert file["frequency"].dims == ("mode",)
 

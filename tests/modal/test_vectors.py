@@ -160,7 +160,10 @@ def test_state_and_response_speak_of_the_vectors_given() -> None:
     labelled = response.modal_displacement()
     assert labelled.label.values.tolist() == ["sum", "difference"]
     assert "frequency" not in labelled.coords
-    with pytest.raises(bs.InputError, match="one number for each of the 2 modes"):
+    assert "units" not in labelled.attrs
+    with pytest.raises(
+        bs.InputError, match=r"for each of the 2 vectors .*they are sum, difference"
+    ):
         bs.Problem(basis, initial=bs.ModalState(velocity=[1.0]), duration=1.0)
 
 

@@ -14,7 +14,14 @@ from bumpstop.files import written_whole
 from bumpstop.io.netcdf_format import Variable, write_file
 from bumpstop.post.energy import ledger
 from bumpstop.projection import TRANSLATIONS, along
-from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, STOP_ENERGIES, dof_units
+from bumpstop.quantities import (
+    ENERGIES,
+    IMPACTS,
+    QUANTITIES,
+    STOP_ENERGIES,
+    dof_units,
+    modal_attributes,
+)
 from bumpstop.response import MOTIONS
 from bumpstop.structure.dofs import Dof
 
@@ -98,7 +105,8 @@ def _modes(response: Response, motions: list[FloatArray]) -> Iterator[Variable]:
         yield Variable("vector", ("vector",), _texts(basis.labels), told)
     for name, motion in zip(("modal_displacement", "modal_velocity"), motions, strict=False):
         values = basis.amplitudes(motion)
-        yield Variable(name, ("time", over), values, QUANTITIES[name].attributes)
+        attributes = modal_attributes(name, unit_mass=basis.coordinates is None)
+        yield Variable(name, ("time", over), values, attributes)
 
 
 def _stops(response: Response) -> Iterator[Variable]:

@@ -59,9 +59,8 @@ class ModalState:
         InputError
             If a list has not one number a vector.
         """
-        modes = len(basis.labels)
-        displacement = _one_a_mode("displacement", self.displacement, modes)
-        velocity = _one_a_mode("velocity", self.velocity, modes)
+        displacement = _one_a_vector("displacement", self.displacement, basis.labels)
+        velocity = _one_a_vector("velocity", self.velocity, basis.labels)
         return basis.canonical(displacement), basis.canonical(velocity)
 
 
@@ -124,10 +123,16 @@ def _position(model: LinearModel, about: str) -> Vector:
         raise InputError(error.what, key="about", value=about, hint=error.hint) from error
 
 
-def _one_a_mode(key: str, values: Sequence[float] | FloatArray | None, modes: int) -> FloatArray:
+def _one_a_vector(
+    key: str, values: Sequence[float] | FloatArray | None, labels: Sequence[str]
+) -> FloatArray:
     if values is None:
-        return np.zeros(modes)
-    if len(values) != modes:
-        what = f"must have one number for each of the {modes} modes"
-        raise InputError(what, key=key, value=f"{len(values)} numbers")
+        return np.zeros(len(labels))
+    if len(values) != len(labels):
+        modes = all(label.startswith("mode ") for label in labels)
+        what = (
+            f"must have one number for each of the {len(labels)} {'modes' if modes else 'vectors'}"
+        )
+        hint = None if modes else f"they are {', '.join(labels)}"
+        raise InputError(what, key=key, value=f"{len(values)} numbers", hint=hint)
     return np.array(values)
