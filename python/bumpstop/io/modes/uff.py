@@ -53,7 +53,10 @@ def read_universal_modes(path: Path) -> ModeSet:
         taken = [mode for mode in modes if mode is not None]
         if not taken:
             numbers = ", ".join(str(number) for number in sorted({data.number for data in found}))
-            raise InputError("holds no mode", hint=f"a data set 55; it has {numbers}")
+            hint = f"modes are data sets 55, and it has {numbers}"
+            if any(data.number == 58 for data in found):
+                hint += "; identify the modes of its measured functions first"
+            raise InputError("holds no mode", hint=hint)
         return _mode_set(taken, file_units(found))
 
 

@@ -15,6 +15,7 @@ __all__ = [
     "BeamEnds",
     "BeamName",
     "Dofs",
+    "Group",
     "LinkedNodes",
     "Name",
     "Node",
@@ -36,6 +37,13 @@ _PATH = rf"{_NAME}(\.{_NAME})*"
 def _read_text(value: object) -> str:
     if not isinstance(value, str):
         raise InputError("must be a text in quotes", value=value)
+    return value
+
+
+def _read_group(value: object) -> str:
+    """Return the name of a group of another program's file, whatever it is."""
+    if not isinstance(value, str) or not value.strip():
+        raise InputError("must be the name of a group", value=value)
     return value
 
 
@@ -105,6 +113,7 @@ _STRING = {"type": "string"}
 _STRINGS = {"type": "array", "items": _STRING, "minItems": 1}
 
 Text = Annotated[str, Plain(_read_text, _STRING)]
+Group = Annotated[str, Plain(_read_group, {**_STRING, "pattern": "^.+$"})]
 Name = Annotated[str, Plain(_read_name, {**_STRING, "pattern": f"^{_NAME}$"})]
 BeamName = Annotated[
     str, Plain(_read_beam, {**_STRING, "pattern": f"^{_PATH}$", "examples": ["AB", "left.AB"]})

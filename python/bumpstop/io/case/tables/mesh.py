@@ -4,7 +4,7 @@ from pydantic import Field
 
 from bumpstop.io.case.fields.counts import Count
 from bumpstop.io.case.fields.quantities import PositiveLength
-from bumpstop.io.case.fields.words import Text
+from bumpstop.io.case.fields.words import Group, Text
 from bumpstop.io.case.tables.beams import BeamPropertiesTable
 from bumpstop.io.case.tables.table import Table
 
@@ -27,6 +27,6 @@ class MeshTable(Table):
     unit: PositiveLength = Field(
         default=1.0, description='Length that a coordinate of 1 means, such as "1 mm"'
     )
-    beams: dict[Text, MeshBeamTable] = Field(
+    beams: dict[Group, MeshBeamTable] = Field(
         description="Beams on the lines of each group, by the group's name"
     )
