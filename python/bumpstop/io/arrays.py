@@ -5,6 +5,7 @@ from __future__ import annotations
 import zipfile
 import zlib
 from pathlib import Path
+from tokenize import TokenError
 from typing import IO, Any
 
 import numpy as np
@@ -13,7 +14,10 @@ from numpy.lib import format as npy
 from bumpstop.errors import InputError
 from bumpstop.io.reading import read_content
 
-__all__ = ["check_members", "read_arrays"]
+__all__ = ["UNREADABLE", "check_members", "read_arrays"]
+
+UNREADABLE = (ValueError, EOFError, SyntaxError, TokenError)
+"""What NumPy raises for damaged files: headers are literals of Python."""
 
 
 def check_members(path: Path, kind: str) -> None:
@@ -48,7 +52,7 @@ def read_arrays(path: Path, kind: str) -> dict[str, Any]:
     try:
         with np.load(path, allow_pickle=False) as archive:
             return {name: archive[name] for name in archive.files}
-    except (ValueError, zipfile.BadZipFile, zlib.error, EOFError) as error:
+    except (*UNREADABLE, zipfile.BadZipFile, zlib.error) as error:
         raise InputError(f"is not {kind}, or is damaged") from error
 
 
@@ -57,7 +61,7 @@ def _check_array(name: str, file: IO[bytes], size: int) -> None:
         major = npy.read_magic(file)[0]
         read_header = npy.read_array_header_1_0 if major == 1 else npy.read_array_header_2_0
         shape, _, dtype = read_header(file)
-    except ValueError as error:
+    except UNREADABLE as error:
         raise InputError(f"member {name!r} is no array of NumPy") from error
     if dtype.hasobject:
         raise InputError(f"member {name!r} holds pickled objects, which are not read")

@@ -68,6 +68,7 @@ REFUSED = {
     "%%MatrixMarket matrix coordinate pattern general\n1 1 1\n1 1\n": "has no real values",
     "%%MatrixMarket matrix coordinate real round\n": "unknown symmetry",
     HEAD: "is truncated: it gives no size",
+    HEAD + "2 3 1\n1 1 1.0\n": "is announced as symmetric but is not square",
     HEAD + "two 2 2\n": "the sizes cannot be read",
     HEAD + "2 2\n1 1 1.0\n": "the sizes cannot be read",
     HEAD + "2 2 2\n1 1 1.0\n": "announces 2 entries but holds 1; is it truncated?",

@@ -48,6 +48,8 @@ def read_matrix_market(path: Path) -> SparseMatrix:
         if not body:
             raise InputError("is truncated: it gives no size", hint=_SIZES[header.layout])
         sizes = _sizes(body[0], header.layout)
+        if header.sign and sizes[0] != sizes[1]:
+            raise InputError("is announced as symmetric but is not square", value=body[0])
         numbers = _numbers(body[1:])
         read = _coordinates if header.layout == "coordinate" else _array
         return read(header, sizes, numbers)

@@ -10,7 +10,7 @@ import numpy as np
 
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
-from bumpstop.io.arrays import check_members
+from bumpstop.io.arrays import UNREADABLE, check_members
 from bumpstop.io.reading import in_file, read_content
 from bumpstop.structure.given import given_matrix
 from bumpstop.structure.sparse import SparseMatrix
@@ -59,7 +59,7 @@ def read_npy(path: Path) -> SparseMatrix:
         try:
             # Mapped, not read: a header that announces too much is found out at once.
             array = np.load(path, mmap_mode="r", allow_pickle=False)
-        except (ValueError, EOFError) as error:
+        except UNREADABLE as error:
             raise InputError("is no array of NumPy, or is truncated") from error
         return given_matrix("the matrix", np.array(array))
 

@@ -40,6 +40,8 @@ def read_med(path: Path) -> LineMesh:
                 return _mesh(file)
             except (KeyError, TypeError, AttributeError, IndexError) as error:
                 raise InputError("is not laid out as a MED file") from error
+            except RuntimeError as error:  # what HDF5 says of damaged indices
+                raise InputError("is damaged") from error
 
 
 def _mesh(file: Any) -> LineMesh:
