@@ -13,6 +13,7 @@ from bumpstop import (
     ModalBasis,
     Placed,
     ReducedComponent,
+    Rotation,
     Structure,
     Support,
     craig_bampton,
@@ -119,6 +120,36 @@ def test_an_interface_that_cannot_hold_the_component_loses_no_rigid_motion(
     whole = ModalBasis.from_structure(bay(), modes=12)
     assert np.count_nonzero(free.omega2 == 0.0) == 6
     np.testing.assert_allclose(free.omega2, whole.omega2, rtol=1e-11)
+
+
+@both
+@pytest.mark.parametrize("modes", [0, "all"])
+def test_a_component_that_is_all_interface_stays_as_it_is(
+    bay: Callable[..., Structure], reduction: Reduction, modes: int | str
+) -> None:
+    beam = bay(elements=1)
+    reduced = reduction(Component(beam, interface=["A", "B"]), modes=modes)
+    np.testing.assert_array_equal(reduced.shapes, np.eye(12))
+    found = ModalBasis.from_structure(Assembly(parts={"bay": Placed(reduced)}), modes="all")
+    expected = ModalBasis.from_structure(beam, modes="all")
+    np.testing.assert_allclose(found.omega2, expected.omega2, rtol=1e-12)
+
+
+@both
+def test_a_long_chain_of_turned_parts_floats_freely(
+    bay: Callable[..., Structure], reduction: Reduction
+) -> None:
+    reduced = reduction(Component(bay(elements=2), interface=["A", "B"]), modes=1)
+    parts, at = {}, (0.0, 0.0, 0.0)
+    for number in range(20):
+        way = Rotation(axis=(0.1, 0.2, 1.0), angle=0.3 * number)
+        parts[f"p{number}"] = Placed(reduced, at=at, rotation=way)
+        x, y, z = way.matrix[:, 0]
+        at = (at[0] + x, at[1] + y, at[2] + z)
+    joints = [(f"p{number}.B", f"p{number + 1}.A") for number in range(19)]
+    omega2 = ModalBasis.from_structure(Assembly(parts=parts, joints=joints), modes=8).omega2
+    assert np.count_nonzero(omega2 == 0.0) == 6
+    assert omega2[6] > 0.1
 
 
 def test_reduced_matrices_are_those_of_the_shapes(third: Component) -> None:
