@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -125,3 +126,20 @@ def test_two_masses_and_two_springs(masses: tuple[float, float]) -> None:
     root = np.sqrt(total**2 - 4.0 * k1 * k2 / (m1 * m2))
     high = 0.5 * (total + root)
     np.testing.assert_allclose(basis.omega2, [k1 * k2 / (m1 * m2) / high, high], rtol=1e-12)
+
+
+def test_many_loose_masses_are_counted_and_some_are_named() -> None:
+    """A chain without supports: every mass can leave the line in two directions."""
+    names = [f"m{i}" for i in range(40)]
+    structure = Structure(
+        nodes={name: (float(i), 0, 0) for i, name in enumerate(names)},
+        masses=[PointMass(name, node=name, mass=1.0) for name in names],
+        springs=[Spring(a + b, node=a, other=b, stiffness=1e3) for a, b in pairwise(names)],
+    )
+    expected = r"translation along y of m0; translation along z of m0; .*say rigid_modes = 81 "
+    with pytest.raises(InputError, match=expected):
+        ModalBasis.from_structure(structure, modes=4)
+    omega2 = ModalBasis.from_structure(structure, modes="all", rigid_modes=81).omega2
+    assert np.count_nonzero(omega2 == 0.0) == 81
+    waves = 4e3 * np.sin(np.pi * np.arange(1, 40) / 80.0) ** 2
+    np.testing.assert_allclose(omega2[81:], waves, rtol=1e-11)

@@ -24,6 +24,9 @@ from bumpstop.structure.sparse import IndexArray
 
 __all__ = ["FreeMotion", "free_motions"]
 
+_MANY = 60
+"""Most free motions of a piece among which those of the whole are looked for."""
+
 _SAME = 1e-7
 """Motions that differ by less, relative to their size, are the same."""
 
@@ -153,7 +156,8 @@ def _of_piece(
     fields = ground.scaled(rows, fields)
     fields = fields[:, np.abs(fields).max(axis=0) > 0.0]
     rigid = ground.rigid(rows)
-    whole = _common(rigid, fields)
+    # With so many, the piece does not hang together; its few rigid motions are among them.
+    whole = _common(rigid, fields) if fields.shape[1] <= _MANY else np.zeros((6, 0))
     names = f" of {_names(ground, rows)}" if named else ""
     motions = [
         FreeMotion(_whole_words(ground, motion, whole) + names, is_mechanism=False)
@@ -176,13 +180,22 @@ def _common(rigid: FloatArray, fields: FloatArray) -> FloatArray:
 def _others(fields: FloatArray, known: FloatArray) -> FloatArray:
     """Return fields that are no combination of the known ones; those that move least first."""
     moved = np.abs(fields) > _SAME * np.abs(fields).max(axis=0)
+    fields = fields[:, np.argsort(moved.sum(axis=0), kind="stable")]
+    if known.shape[1] == 0:
+        return fields
+    directions = np.zeros((len(fields), fields.shape[1]))
+    count = known.shape[1]
+    directions[:, :count] = _directions(known)
     others = []
-    for field in fields[:, np.argsort(moved.sum(axis=0), kind="stable")].T:
-        directions = _directions(known)
-        left = field - directions @ (directions.T @ field)
-        if np.linalg.norm(left) > _SAME * np.linalg.norm(field):
+    for field in fields.T:
+        left = field / np.linalg.norm(field)
+        for _ in range(2):  # once more removes what rounding left
+            left = left - directions[:, :count] @ (directions[:, :count].T @ left)
+        size = np.linalg.norm(left)
+        if size > _SAME and count < fields.shape[1]:
+            directions[:, count] = left / size
+            count += 1
             others.append(field)
-            known = np.column_stack([known, field])
     return np.array(others).reshape(-1, len(fields)).T
 
 
@@ -226,9 +239,5 @@ def _names(ground: _Ground, rows: IndexArray) -> str:
 
 
 def _directions(fields: FloatArray) -> FloatArray:
-    """Return orthonormal vectors that span fields."""
-    directions, sizes, _ = np.linalg.svd(
-        fields / np.linalg.norm(fields, axis=0), full_matrices=False
-    )
-    kept: FloatArray = directions[:, sizes > _SAME * sizes.max(initial=0.0)]
-    return kept
+    """Return orthonormal vectors that span independent fields."""
+    return np.array(np.linalg.qr(fields / np.linalg.norm(fields, axis=0))[0])
