@@ -20,6 +20,7 @@ from bumpstop import (
     Structure,
     Support,
 )
+from bumpstop.modal.substructure import Assembly, Component, Joint, Placed, craig_bampton
 from bumpstop.structure.dofs import DOFS
 
 ALLOY = Material(young_modulus=67e9, poisson_ratio=0.0, density=2400.0)
@@ -143,3 +144,21 @@ def test_many_loose_masses_are_counted_and_some_are_named() -> None:
     assert np.count_nonzero(omega2 == 0.0) == 81
     waves = 4e3 * np.sin(np.pi * np.arange(1, 40) / 80.0) ** 2
     np.testing.assert_allclose(omega2[81:], waves, rtol=1e-11)
+
+
+def test_a_hinge_between_substructures_is_named() -> None:
+    """The amplitudes of their inner shapes have no place, and are not asked for one."""
+    bay = Structure(
+        nodes={"A": (0, 0, 0), "B": (1, 0, 0)},
+        beams=[Beam("AB", nodes=("A", "B"), elements=4, material=ALLOY, section=BAR)],
+    )
+    reduced = craig_bampton(Component(bay, interface=["A", "B"]), modes=4)
+    whole = Assembly(
+        parts={"left": Placed(reduced), "right": Placed(reduced, at=(1, 0, 0))},
+        joints=[Joint("left.B", "right.A", dofs=("dx", "dy", "dz", "drx", "dry"))],
+        supports=[Support(nodes="left.A", fixed=DOFS)],
+    )
+    basis = ModalBasis.from_structure(whole, modes=3, rigid_modes=1)
+    assert basis.rigid_modes[0].startswith("rotation about z through left.B of right.A, right.B")
+    with pytest.raises(InputError, match="1 motion is free of strain: rotation about z through"):
+        ModalBasis.from_structure(whole, modes=3, rigid_modes=0)

@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bumpstop.arguments import FloatArray
+from bumpstop.arguments import FloatArray, Vector
 from bumpstop.errors import InputError
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.echelon import independent_rows, null_space
@@ -50,8 +52,8 @@ class FreeMotion:
 def free_motions(model: LinearModel) -> list[FreeMotion]:
     """Return the motions of a model that strain nothing, rigid motions of whole pieces first.
 
-    Where the positions of nodes are not known, motions are named by what moves most, and none
-    is called a mechanism.
+    What has no place, a node of unknown position or the amplitude of a shape, is not looked
+    at. Motions of such dofs alone are named by what moves most, and not called mechanisms.
 
     Examples
     --------
@@ -68,14 +70,14 @@ def free_motions(model: LinearModel) -> list[FreeMotion]:
     if fields.shape[1] == 0:
         return []
     ground = _Ground.of(model)
-    if ground is None:
-        return [FreeMotion(_led_by(model.dofs, field), is_mechanism=False) for field in fields.T]
     pieces = [rows for rows in ground.pieces(model) if fields[rows].any()]
     found = [
         motion
         for rows in pieces
         for motion in _of_piece(ground, rows, fields[rows], named=len(pieces) > 1)
     ]
+    placeless = fields[:, ~fields[ground.placed].any(axis=0)]
+    found += [FreeMotion(_led_by(model.dofs, field), is_mechanism=False) for field in placeless.T]
     return sorted(found, key=lambda motion: motion.is_mechanism)
 
 
@@ -88,9 +90,9 @@ class _Ground:
     names
         Names of the nodes.
     positions
-        Where they are in m, (nodes, 3).
+        Where they are in m, (nodes, 3); NaN where that is not known.
     node, dof
-        Of each row, the numbers of its node and of its place in ``DOFS``.
+        Of each row, the numbers of its node and of its place in ``DOFS``; -1 for another dof.
     """
 
     names: tuple[str, ...]
@@ -99,21 +101,28 @@ class _Ground:
     dof: IndexArray
 
     @classmethod
-    def of(cls, model: LinearModel) -> _Ground | None:
-        """Return where the dofs of a model are; None where that is not known of all."""
+    def of(cls, model: LinearModel) -> _Ground:
+        """Return where the dofs of a model are."""
         names = tuple(dict.fromkeys(node for node, _ in model.dofs))
         numbers = {name: number for number, name in enumerate(names)}
-        try:
-            positions = np.array([model.position(name) for name in names])
-            dof = np.array([DOFS.index(dof) for _, dof in model.dofs])
-        except (InputError, ValueError):
-            return None
-        return cls(names, positions, np.array([numbers[node] for node, _ in model.dofs]), dof)
+        return cls(
+            names,
+            positions=np.array([_position(model, name) for name in names]),
+            node=np.array([numbers[node] for node, _ in model.dofs]),
+            dof=np.array([DOFS.index(dof) if dof in DOFS else -1 for _, dof in model.dofs]),
+        )
 
-    @property
+    @cached_property
+    def placed(self) -> NDArray[np.bool_]:
+        """Which rows are displacements or rotations of nodes of known position."""
+        placed: NDArray[np.bool_] = (self.dof >= 0) & ~np.isnan(self.positions[self.node, 0])
+        return placed
+
+    @cached_property
     def size(self) -> float:
         """A length in m that is typical of the model."""
-        return float(np.ptp(self.positions, axis=0).max()) or 1.0
+        known = self.positions[~np.isnan(self.positions[:, 0])]
+        return float(np.ptp(known, axis=0).max()) or 1.0
 
     def pieces(self, model: LinearModel) -> list[IndexArray]:
         """Return the rows that can move of each piece that hangs together."""
@@ -129,7 +138,7 @@ class _Ground:
             piece[nodes] = number
         moving = np.zeros(len(self.node), dtype=bool)
         moving[expansion.rows] = True
-        rows = np.flatnonzero(moving)
+        rows = np.flatnonzero(moving & self.placed)
         return [rows[piece[self.node[rows]] == number] for number in range(len(of_node))]
 
     def scaled(self, rows: IndexArray, fields: FloatArray) -> FloatArray:
@@ -146,7 +155,16 @@ class _Ground:
 
     def words(self, motion: FloatArray) -> str:
         """Return what one of these, (6,), is in words."""
-        return rigid_words(motion[:3], motion[3:] / self.size, self.names, self.positions)
+        known = np.flatnonzero(~np.isnan(self.positions[:, 0]))
+        names = [self.names[node] for node in known]
+        return rigid_words(motion[:3], motion[3:] / self.size, names, self.positions[known])
+
+
+def _position(model: LinearModel, node: str) -> Vector:
+    try:
+        return model.position(node)
+    except InputError:
+        return (np.nan, np.nan, np.nan)
 
 
 def _of_piece(
