@@ -120,6 +120,35 @@ def test_supports_of_the_case_file_hold_dofs_of_the_matrices(
     assert_same(response, load_case(case).problems["base"])
 
 
+def test_files_in_millimetres_newtons_and_tonnes(
+    tmp_path: Path, structure: Structure, response: Response
+) -> None:
+    turns = np.array([1e3 if dof.startswith("dr") else 1.0 for _, dof in structure.dofs])
+    scale = sp.diags_array(turns)
+    for key in ("stiffness", "mass"):
+        matrix = scale @ getattr(structure, key).to_scipy() @ scale * 1e-3
+        sp.save_npz(tmp_path / f"{key}.npz", sp.csc_array(matrix))
+    lines = ["node,dof,x,y,z,fixed"]
+    for number, (node, dof) in enumerate(structure.dofs):
+        x, y, z = (1e3 * place for place in structure.position(node))
+        lines.append(f"{node},{dof},{x!r},{y!r},{z!r},{int(number not in structure.free)}")
+    (tmp_path / "dofs.csv").write_text("\n".join(lines) + "\n")
+    case = tmp_path / "case.toml"
+    case.write_text(
+        '[matrices]\nstiffness = "stiffness.npz"\nmass = "mass.npz"\ndofs = "dofs.csv"\n'
+        'length = "1 mm"\n' + RUN.format(initial=ROTATION)
+    )
+    other = bs.simulate(load_case(case).problems["base"])
+    np.testing.assert_allclose(
+        other.impacts[["end", "peak_force", "impulse"]],
+        response.impacts[["end", "peak_force", "impulse"]],
+        rtol=1e-9,
+    )
+    case.write_text(case.read_text().replace('length = "1 mm"', "force = -1.0"))
+    with pytest.raises(InputError, match=r"matrices\.force: must be positive"):
+        load_case(case)
+
+
 def write_modes(basis: ModalBasis, folder: Path, *, mass: float = 1.0) -> None:
     columns = ["frequency", "modal_mass", "B.dy"]
     rows = zip(

@@ -18,6 +18,7 @@ from bumpstop.io.matrices.matrix_market import BANNER, read_matrix_market
 from bumpstop.io.matrices.npz import read_npy, read_npz
 from bumpstop.io.matrices.op4 import read_op4
 from bumpstop.io.matrices.triplets import FileMatrix
+from bumpstop.io.matrices.units import matrix_in_si, places_in_si
 from bumpstop.io.reading import in_file
 from bumpstop.structure.dofs import Dof
 from bumpstop.structure.matrices import ACCURACY, Matrices
@@ -38,6 +39,8 @@ def read_matrices(
     dofs: AnyPath | None = None,
     fixed: Sequence[Dof] = (),
     accuracy: float = ACCURACY,
+    length: float = 1.0,
+    force: float = 1.0,
 ) -> Matrices:
     """Read the matrices of a structure from files of another program.
 
@@ -56,6 +59,9 @@ def read_matrices(
         Node and dof of what is held at zero, beside what the dof map says.
     accuracy
         How exact the entries are; see ``Matrices``.
+    length, force
+        Units of the files in m and N, where they are not SI: 1e-3 and 1 for mm, N and t. Time
+        is in s, and mass in what follows from these.
 
     Raises
     ------
@@ -63,15 +69,16 @@ def read_matrices(
         If a file is missing, truncated or in another format, or the matrices do not fit
         together; the message names the file.
     """
-    given = {
+    paths = {
         "stiffness": stiffness,
         "mass": mass,
         "damping": damping,
         "gyroscopic": gyroscopic,
         "circulatory": circulatory,
     }
-    files = {key: path for key, path in given.items() if path is not None}
-    return read_matrix_set(files, dofs).model(fixed=fixed, accuracy=accuracy)
+    files = {key: path for key, path in paths.items() if path is not None}
+    given = read_matrix_set(files, dofs).in_si(length=length, force=force)
+    return given.model(fixed=fixed, accuracy=accuracy)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +98,24 @@ class MatrixSet:
     matrices: Mapping[str, SparseMatrix]
     dof_map: DofMap
     files: Mapping[str, str]
+
+    def in_si(self, *, length: float, force: float) -> MatrixSet:
+        """Return the same in SI units; ``length`` and ``force`` are those of the files, in m and N.
+
+        Raises
+        ------
+        InputError
+            If a unit is not positive.
+        """
+        dofs = self.dof_map.dofs
+        return MatrixSet(
+            {
+                key: matrix_in_si(matrix, dofs, length=length, force=force)
+                for key, matrix in self.matrices.items()
+            },
+            places_in_si(self.dof_map, length),
+            self.files,
+        )
 
     def model(self, *, fixed: Sequence[Dof] = (), accuracy: float = ACCURACY) -> Matrices:
         """Return the model, with some dofs held beside those that the dof map tells.

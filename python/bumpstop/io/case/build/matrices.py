@@ -30,7 +30,7 @@ def built_matrices(tables: StructureTables, table: MatricesTable, folder: Path) 
         given = read_matrix_set(
             {key: folder / name for key, name in names.items() if name is not None},
             None if table.dofs is None else folder / table.dofs,
-        )
+        ).in_si(length=table.length, force=table.force)
     fixed = [*_held(tables.supports, given)]
     with keyed("matrices"):
         return given.model(fixed=fixed, accuracy=table.accuracy or ACCURACY)

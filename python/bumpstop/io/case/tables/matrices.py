@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from bumpstop.io.case.fields.quantities import PositiveNumber
+from bumpstop.io.case.fields.quantities import Force, PositiveLength, PositiveNumber
 from bumpstop.io.case.fields.words import Text
 from bumpstop.io.case.tables.table import Table
 
@@ -29,6 +29,14 @@ class MatricesTable(Table):
         default=None,
         description="Dof map, a .csv file: node, dof, x, y, z, fixed; needed where the matrices "
         "do not name their rows",
+    )
+    length: PositiveLength = Field(
+        default=1.0, description='Unit of length in the files, such as "1 mm"'
+    )
+    force: Force = Field(
+        default=1.0,
+        description="Unit of force in the files; time is in s, and mass in what follows: t for "
+        "mm and N",
     )
     accuracy: PositiveNumber | None = Field(
         default=None,
