@@ -22,10 +22,12 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.modal.certificate import SturmCount
     from bumpstop.modal.damping import RayleighDamping, StructuralDamping
     from bumpstop.modal.masses import Participation, generalised_mass, participation
     from bumpstop.modal.oscillation import ComplexModes, complex_modes
     from bumpstop.modal.rotor import Campbell, campbell
+    from bumpstop.modal.selection import AllModes, LowestModes, ModesAround, ModesInBand
     from bumpstop.modal.static_shapes import StaticShapes
     from bumpstop.modal.substructure.assembly import Assembly
     from bumpstop.modal.substructure.component import Component
@@ -58,6 +60,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "AllModes",
     "Assembly",
     "Beam",
     "Bearing",
@@ -73,10 +76,13 @@ __all__ = [
     "Gravity",
     "InputError",
     "Joint",
+    "LowestModes",
     "Material",
     "Matrices",
     "ModalBasis",
     "ModalState",
+    "ModesAround",
+    "ModesInBand",
     "NodalForce",
     "Participation",
     "Placed",
@@ -97,6 +103,7 @@ __all__ = [
     "Stop",
     "StructuralDamping",
     "Structure",
+    "SturmCount",
     "Support",
     "Tube",
     "campbell",
@@ -114,6 +121,7 @@ __all__ = [
 ]
 
 _HOME = {
+    "AllModes": "modal.selection",
     "Assembly": "modal.substructure.assembly",
     "Beam": "structure.beam",
     "Bearing": "structure.bearing",
@@ -129,10 +137,13 @@ _HOME = {
     "Gravity": "loads.gravity",
     "InputError": "errors",
     "Joint": "modal.substructure.joint",
+    "LowestModes": "modal.selection",
     "Material": "structure.material",
     "Matrices": "structure.matrices",
     "ModalBasis": "modal.basis",
     "ModalState": "loads.initial",
+    "ModesAround": "modal.selection",
+    "ModesInBand": "modal.selection",
     "NodalForce": "loads.force",
     "Participation": "modal.masses",
     "Placed": "modal.substructure.placed",
@@ -153,6 +164,7 @@ _HOME = {
     "Stop": "laws.stop",
     "StructuralDamping": "modal.damping",
     "Structure": "structure.structure",
+    "SturmCount": "modal.certificate",
     "Support": "structure.support",
     "Tube": "structure.sections.tube",
     "campbell": "modal.rotor",

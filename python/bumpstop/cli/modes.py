@@ -71,6 +71,7 @@ def _record(basis: ModalBasis) -> dict[str, Any]:
         "labels": list(basis.canonical_labels),
         "generalised_mass": generalised_mass(basis).tolist(),
         "remarks": _remarks(basis),
+        "sturm": None if basis.sturm is None else str(basis.sturm),
     }
     if basis.has_masses:
         part = participation(basis)
