@@ -21,8 +21,11 @@ if TYPE_CHECKING:
     from bumpstop.problem import InitialState, Load, Problem
     from bumpstop.response import Response
     from bumpstop.structure.beam import Beam
+    from bumpstop.structure.bearing import Bearing
     from bumpstop.structure.gauge import Gauge
     from bumpstop.structure.model import LinearModel
+    from bumpstop.structure.sections.section import Section
+    from bumpstop.structure.spring import Spring
     from bumpstop.structure.support import Support
 
 __all__ = ["METHODS", "Row", "method_words", "model_rows"]
@@ -31,6 +34,9 @@ Row = tuple[str, list[str]]
 """A term and what there is to say about it, one line each."""
 
 _MOST_LINES = 12
+
+_SHAPES = {"Rectangle": "hollow rectangle", "Circle": "circle", "Tube": "tube"}
+"""Names of sections that are told by their area."""
 
 METHODS = {
     "exact": (
@@ -105,6 +111,8 @@ def _structure_rows(structure: Structure) -> list[Row]:
         ("Nodes", _short([f"{n} at {_vector(x, 'm')}" for n, x in structure.nodes.items()])),
         ("Beams", _short([_beam(beam, structure) for beam in structure.beams])),
         ("Masses", _short(masses)),
+        ("Springs", _short([_joined(spring) for spring in structure.springs])),
+        ("Bearings", _short([_joined(bearing) for bearing in structure.bearings])),
         ("Supports", _short([_support(support) for support in structure.supports])),
     ]
 
@@ -112,9 +120,9 @@ def _structure_rows(structure: Structure) -> list[Row]:
 def _beam(beam: Beam, structure: Structure) -> str:
     start, end = (np.array(structure.nodes[node], dtype=float) for node in beam.nodes)
     material, section = beam.material, beam.section
-    shape = f"area {_plain(section.area)} m²"
-    if isinstance(section, Rectangle):
-        shape = f"{with_unit(section.height, 'm')} × {with_unit(section.width, 'm')}"
+    shape = _shape(section)
+    if beam.end_section is not None:
+        shape += f" to {_shape(beam.end_section)}"
     elements = "element" if beam.elements == 1 else "elements"
     return (
         f"{beam.name}: {with_unit(float(np.linalg.norm(end - start)), 'm')} from {beam.nodes[0]} "
@@ -122,6 +130,17 @@ def _beam(beam: Beam, structure: Structure) -> str:
         f"E = {with_unit(material.young_modulus, 'Pa')}, ν = {_plain(material.poisson_ratio)}, "
         f"ρ = {_plain(material.density)} kg/m³"
     )
+
+
+def _shape(section: Section) -> str:
+    """Return a rectangle by its sides, others by their area."""
+    if isinstance(section, Rectangle) and section.thickness is None:
+        return f"{with_unit(section.height, 'm')} × {with_unit(section.width, 'm')}"
+    return f"{_SHAPES.get(type(section).__name__, 'shape')} of area {_plain(section.area)} m²"
+
+
+def _joined(part: Spring | Bearing) -> str:
+    return f"{part.name}: {part.node} to {part.other or 'the ground'}"
 
 
 def _theory(name: str) -> str:
