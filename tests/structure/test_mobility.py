@@ -119,3 +119,14 @@ def test_a_damper_at_a_node_without_mass_is_refused() -> None:
 def test_nothing_but_springs() -> None:
     with pytest.raises(InputError, match="nothing that can move has mass"):
         Structure(nodes={"A": (0, 0, 0)}, springs=[Spring("s", node="A", stiffness=[1e3] * 6)])
+
+
+def test_a_damper_that_a_motion_without_inertia_does_not_move_is_taken() -> None:
+    """A slanting dumbbell spins about its own line; a damper at its end knows nothing of it."""
+    dumbbell = Structure(
+        nodes={"A": (0.1, 0.2, 0.3), "B": (0.83, 1.07, -0.59)},
+        masses=[PointMass(node, node=node, mass=1.0) for node in "AB"],
+        springs=[Spring("pot", node="B", damping=(20.0, 20.0, 20.0, 0, 0, 0))],
+        links=[RigidLink("bar", nodes=("A", "B"))],
+    )
+    assert len(dumbbell.free) == 5

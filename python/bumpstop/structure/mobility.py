@@ -93,6 +93,9 @@ def mobility(
     return Mobility(allowed, freedom, massless)
 
 
+_CANCELLED = 1e-12
+"""A force this small beside the sizes of its terms is rounding."""
+
 _DELAYING = {
     "damping": "a damper",
     "gyroscopic": "a gyroscopic moment",
@@ -104,9 +107,12 @@ _DELAYING = {
 def _refuse(
     freedom: Freedom, motions: SparseMatrix, matrix: SparseMatrix, dofs: tuple[Dof, ...], part: str
 ) -> None:
-    forces = freedom.reduced(matrix).times(motions)
-    if len(forces.values):
-        moved, weights = motions.dense_columns(forces.columns[:1])
+    own = freedom.reduced(matrix)
+    forces = own.times(motions)
+    sizes = own.magnitudes().times(motions.magnitudes()).values
+    acting = np.abs(forces.values) > _CANCELLED * sizes
+    if acting.any():
+        moved, weights = motions.dense_columns(forces.columns[acting][:1])
         node, dof = dofs[freedom.free[moved[np.abs(weights[:, 0]).argmax()]]]
         what = f"{dof} is moved by {part}, but has no mass"
         raise InputError(what, key=f"nodes.{node}", hint="give the node mass, or rotary inertia")
