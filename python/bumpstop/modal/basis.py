@@ -12,9 +12,10 @@ import numpy as np
 from bumpstop.arguments import FloatArray, did_you_mean, not_negative, one_of, series
 from bumpstop.errors import InputError
 from bumpstop.modal.certificate import SturmCount
-from bumpstop.modal.damping import Damping, angular_frequencies, modal_damping, with_companions
+from bumpstop.modal.damping import Damping, angular_frequencies
 from bumpstop.modal.eigen import model_modes
-from bumpstop.modal.given import given_labels, given_vectors, modal_masses
+from bumpstop.modal.given import given_components, given_labels, given_vectors, modal_masses
+from bumpstop.modal.modal_damping import modal_damping, with_companions
 from bumpstop.modal.projected import projected
 from bumpstop.modal.rigid_modes import require_rigid_modes
 from bumpstop.modal.selection import ModeSelection, mode_selection
@@ -306,7 +307,7 @@ class ModalBasis:
         from bumpstop.modal.coordinates import scaled_coordinates
 
         hertz = [not_negative("frequency", value) for value in series("frequency", frequency)]
-        rows = [_components(key, values, len(hertz)) for key, values in _items(shapes)]
+        rows = given_components(shapes, len(hertz))
         omega2 = (2.0 * np.pi * np.array(hertz)) ** 2
         ratio, matrix, _ = modal_damping(damping, omega2)
         scale = np.sqrt(modal_masses(modal_mass, len(hertz)))
@@ -315,7 +316,7 @@ class ModalBasis:
             damping_ratio=ratio,
             damping_matrix=matrix,
             dofs=tuple((str(node), str(dof)) for node, dof in shapes),
-            shapes=np.array(rows) / scale,
+            shapes=rows / scale,
             coordinates=scaled_coordinates(scale),
         )
 
@@ -468,22 +469,3 @@ class ModalBasis:
 def mode_labels(count: int) -> tuple[str, ...]:
     """Return what modes are called: ``mode 1`` and so on."""
     return tuple(f"mode {number}" for number in range(1, count + 1))
-
-
-def _items(shapes: object) -> list[tuple[object, object]]:
-    if not isinstance(shapes, Mapping) or not shapes:
-        what = 'must map (node, dof) to components, such as {("P", "dx"): [1.0, 0.4]}'
-        raise InputError(what, key="shapes", value=shapes)
-    return list(shapes.items())
-
-
-def _components(key: object, values: object, modes: int) -> tuple[float, ...]:
-    """Return the components of one dof, one a mode."""
-    if not isinstance(key, tuple) or len(key) != 2 or not isinstance(key[0], str):
-        raise InputError("must be a node and a dof", key="shapes", value=key)
-    one_of("dof", key[1], DOFS)
-    components = series(f"shapes.{key[0]}.{key[1]}", values)
-    if len(components) != modes:
-        what = f"must have one component for each of the {modes} modes"
-        raise InputError(what, key=f"shapes.{key[0]}.{key[1]}", value=values)
-    return components

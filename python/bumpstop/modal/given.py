@@ -1,16 +1,17 @@
-"""Vectors that a user hands over: checked against the model that they belong to."""
+"""Vectors and shapes that a user hands over, checked."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, name, positive, series
+from bumpstop.arguments import FloatArray, name, one_of, positive, series
 from bumpstop.errors import InputError
+from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.model import LinearModel
 
-__all__ = ["given_labels", "given_vectors", "modal_masses"]
+__all__ = ["given_components", "given_labels", "given_vectors", "modal_masses"]
 
 ROUNDING = 1e-9
 """Motion of a held dof below this, relative to the largest of its vector, is rounding."""
@@ -70,6 +71,32 @@ def modal_masses(modal_mass: object, modes: int) -> FloatArray:
         what = f"must be one number, or one for each of the {modes} modes"
         raise InputError(what, key="modal_mass", value=modal_mass)
     return np.array([positive("modal_mass", mass) for mass in masses])
+
+
+def given_components(shapes: object, modes: int) -> FloatArray:
+    """Return the components of modes, one row a node and dof, (rows, modes).
+
+    Raises
+    ------
+    InputError
+        If the shapes are no mapping of nodes and dofs to one number a mode.
+    """
+    if not isinstance(shapes, Mapping) or not shapes:
+        what = 'must map (node, dof) to components, such as {("P", "dx"): [1.0, 0.4]}'
+        raise InputError(what, key="shapes", value=shapes)
+    return np.array([_components(key, values, modes) for key, values in shapes.items()])
+
+
+def _components(key: object, values: object, modes: int) -> tuple[float, ...]:
+    """Return the components of one dof, one a mode."""
+    if not isinstance(key, tuple) or len(key) != 2 or not isinstance(key[0], str):
+        raise InputError("must be a node and a dof", key="shapes", value=key)
+    one_of("dof", key[1], DOFS)
+    components = series(f"shapes.{key[0]}.{key[1]}", values)
+    if len(components) != modes:
+        what = f"must have one component for each of the {modes} modes"
+        raise InputError(what, key=f"shapes.{key[0]}.{key[1]}", value=values)
+    return components
 
 
 def _table(vectors: object, rows: int) -> FloatArray:
