@@ -60,13 +60,19 @@ class Reference:
 
     def _table(self, title: str, path: str, table: Schema) -> Iterator[str]:
         fields = table["properties"]
-        kind = fields.get("type", {}).get("const")
-        heading = f'`{title}` with `type = "{kind}"`' if kind else f"`{title}`"
+        kinds = [
+            f'{key} = "{fields[key]["const"]}"' for key in _KIND if "const" in fields.get(key, {})
+        ]
+        heading = " with ".join(f"`{part}`" for part in (title, *kinds))
         plain = {key: field for key, field in fields.items() if not _holds_tables(field)}
         yield from _section(heading, table.get("description", ""), plain, table)
         for key, field in fields.items():
             if key not in plain:
                 yield from self._tables(f"{path}.{key}", field)
+
+
+_KIND = ("type", "shape")
+"""Keys by which a table says of what kind it is."""
 
 
 def _section(title: str, text: str, fields: dict[str, Schema], table: Schema) -> Iterator[str]:
