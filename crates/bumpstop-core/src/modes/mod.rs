@@ -5,7 +5,10 @@
 //! prove that none was missed; [`selection`] puts both together.
 
 pub mod dense;
+mod dissection;
+mod elimination;
 pub mod factor;
+mod graph;
 mod lanczos;
 pub mod pencil;
 pub mod selection;
