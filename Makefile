@@ -50,6 +50,7 @@ format: $(STAMPS)/dev ## Bring Python and Rust into the house style
 bench: $(STAMPS)/byte-code $(STAMPS)/dev $(STAMPS)/bench ## Measure the speed beside other solvers
 	$(BIN)/python benchmarks/sdnl32.py
 	$(BIN)/python benchmarks/startup.py
+	$(BIN)/python benchmarks/eigen.py
 	$(BIN)/python benchmarks/assembly.py
 
 docs: $(STAMPS)/core $(STAMPS)/docs ## Build the documentation, running its examples
