@@ -36,6 +36,9 @@ struct Motion {
     v: Vec<f64>,
 }
 
+/// Phases that are tried one by one before all are searched.
+const NEARBY: usize = 4;
+
 impl Drop for PhaseRecord {
     fn drop(&mut self) {
         self.phases.leave();
@@ -65,6 +68,19 @@ impl PhaseRecord {
     /// The number of the phase at a time: the last one that has started.
     pub fn phase_at(&self, time: f64) -> usize {
         self.phases.list.partition_point(|p| p.start <= time).max(1) - 1
+    }
+
+    /// The same, looked for from a phase on: times mostly come in order.
+    #[inline(always)]
+    fn phase_from(&self, number: usize, time: f64) -> usize {
+        let list = &self.phases.list;
+        for candidate in number..list.len().min(number + NEARBY) {
+            let after = list.get(candidate + 1).map_or(f64::INFINITY, |p| p.start);
+            if list[candidate].start <= time && time < after {
+                return candidate;
+            }
+        }
+        self.phase_at(time)
     }
 
     /// Shows modal displacement, velocity and law states at each time.
@@ -249,8 +265,9 @@ impl Vectorised for Projection<'_> {
         let mut reader = READER.take().unwrap_or_default();
         let mut present = None;
         let mut values = Vec::with_capacity(self.times.len());
+        let mut number = 0;
         for time in self.times {
-            let number = self.record.phase_at(*time);
+            number = self.record.phase_from(number, *time);
             let phase = phases.list[number];
             let spectrum = &phases.spectra[phase.spectrum];
             let Reader {

@@ -17,8 +17,9 @@
 use super::rows::Rows;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
-/// Corrections of the middle way before damping comes in.
-const MIDDLE_WAY_STEPS: usize = 2;
+/// Corrections of the middle way before damping comes in: the damping's first-order estimate is no
+/// better than one leaves the root.
+const MIDDLE_WAY_STEPS: usize = 1;
 
 /// Newton steps allowed; two suffice for light damping.
 const NEWTON_STEPS: usize = 8;
