@@ -6,9 +6,10 @@ Names are imported when they are first used, so that ``import bumpstop`` costs n
 from __future__ import annotations
 
 import sys
-from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING
+
+from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
     from bumpstop.errors import BumpstopError, ComputationError, InputError
@@ -194,13 +195,7 @@ class _Package(ModuleType):
 
 sys.modules[__name__].__class__ = _Package
 
-
-def __getattr__(name: str) -> object:
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
-    globals()[name] = value
-    return value
+__getattr__ = lazy_names(__name__, _HOME)
 
 
 def __dir__() -> list[str]:

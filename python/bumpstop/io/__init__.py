@@ -5,8 +5,9 @@ Names are imported when they are first used: each format brings its own packages
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
     from bumpstop.io.matrices import read_matrices, write_matrices
@@ -22,18 +23,14 @@ __all__ = [
     "write_matrices",
 ]
 
-_HOME = {
-    "LineMesh": "meshes",
-    "ModeSet": "modes",
-    "read_matrices": "matrices",
-    "read_mesh": "meshes",
-    "read_modes": "modes",
-    "write_matrices": "matrices",
-}
-"""Where each name lives."""
-
-
-def __getattr__(name: str) -> object:
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "LineMesh": "meshes",
+        "ModeSet": "modes",
+        "read_matrices": "matrices",
+        "read_mesh": "meshes",
+        "read_modes": "modes",
+        "write_matrices": "matrices",
+    },
+)

@@ -8,20 +8,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bumpstop.lazy import lazy_names
+
 if TYPE_CHECKING:
     from bumpstop.report.figures import as_plotly
     from bumpstop.report.html import write_report
 
 __all__ = ["as_plotly", "write_report"]
 
-
-def __getattr__(name: str) -> object:
-    if name == "as_plotly":
-        from bumpstop.report.figures import as_plotly
-
-        return as_plotly
-    if name == "write_report":
-        from bumpstop.report.html import write_report
-
-        return write_report
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = lazy_names(__name__, {"as_plotly": "figures", "write_report": "html"})

@@ -5,34 +5,49 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bumpstop import structure
 from bumpstop.arguments import FloatArray, Vector, did_you_mean, one_of
 from bumpstop.errors import InputError, blamed
 from bumpstop.structure.assembly import KINDS, Assembler, Part
 from bumpstop.structure.beam import Beam
 from bumpstop.structure.beam_blocks import beam_blocks
-from bumpstop.structure.bearing import Bearing
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.drawn import Line
 from bumpstop.structure.elimination import Freedom, freedom
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.frame import rigid_motions
-from bumpstop.structure.gauge import Gauge
-from bumpstop.structure.link import RigidLink
-from bumpstop.structure.mass import PointMass
 from bumpstop.structure.massless import surely_massive
 from bumpstop.structure.mesh import Mesh, user_nodes
 from bumpstop.structure.mobility import Mobility, mobility
 from bumpstop.structure.points import beam_point
-from bumpstop.structure.relation import Relation
 from bumpstop.structure.rigid import rigid_fields
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
-from bumpstop.structure.spring import Spring
-from bumpstop.structure.support import Support
+
+if TYPE_CHECKING:
+    from bumpstop.structure.bearing import Bearing
+    from bumpstop.structure.gauge import Gauge
+    from bumpstop.structure.link import RigidLink
+    from bumpstop.structure.mass import PointMass
+    from bumpstop.structure.relation import Relation
+    from bumpstop.structure.spring import Spring
+    from bumpstop.structure.support import Support
 
 __all__ = ["Structure"]
+
+_KINDS = {
+    "beams": "Beam",
+    "masses": "PointMass",
+    "springs": "Spring",
+    "bearings": "Bearing",
+    "supports": "Support",
+    "relations": "Relation",
+    "links": "RigidLink",
+}
+"""Classes of the parts: names of the package, which loads a class with its first part."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -88,15 +103,7 @@ class Structure:
     links: Sequence[RigidLink] = ()
 
     def __post_init__(self) -> None:
-        for kind, wanted in (
-            ("beams", Beam),
-            ("masses", PointMass),
-            ("springs", Spring),
-            ("bearings", Bearing),
-            ("supports", Support),
-            ("relations", Relation),
-            ("links", RigidLink),
-        ):
+        for kind, wanted in _KINDS.items():
             object.__setattr__(self, kind, _all_of(kind, wanted, getattr(self, kind)))
         for kind in ("beams", "masses", "springs", "bearings", "links"):
             _refuse_twins(kind, [part.name for part in getattr(self, kind)])
@@ -319,13 +326,13 @@ class Structure:
             raise InputError("the node is attached to nothing", key=f"nodes.{node}", hint=hint)
 
 
-def _all_of(key: str, wanted: type, value: object) -> tuple[object, ...]:
+def _all_of(key: str, wanted: str, value: object) -> tuple[object, ...]:
     if isinstance(value, str | Mapping) or not isinstance(value, Iterable):
-        raise InputError(f"must be a list of {wanted.__name__}s", key=key, value=value)
+        raise InputError(f"must be a list of {wanted}s", key=key, value=value)
     listed = tuple(value)
     for item in listed:
-        if not isinstance(item, wanted):
-            raise InputError(f"must hold {wanted.__name__}s only", key=key, value=item)
+        if not isinstance(item, getattr(structure, wanted)):
+            raise InputError(f"must hold {wanted}s only", key=key, value=item)
     return listed
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Union, get_args, g
 from bumpstop.arguments import did_you_mean
 from bumpstop.errors import InputError
 from bumpstop.io.case.keys import KeyPath, dotted
+from bumpstop.io.case.tables.later import Later
 from bumpstop.io.case.tables.table import Table
 
 if TYPE_CHECKING:
@@ -147,10 +148,11 @@ def _place(location: KeyPath, model: type[Table]) -> _Place:
 def _bare(annotation: Any) -> Any:
     """Return a type without its metadata and without None."""
     if get_origin(annotation) is Annotated:
-        return _bare(get_args(annotation)[0])
+        bare, *metadata = get_args(annotation)
+        return next((_bare(given.table) for given in metadata if isinstance(given, Later)), bare)
     if _is_union(annotation):
         members = [member for member in get_args(annotation) if member is not type(None)]
-        return members[0] if len(members) == 1 else annotation
+        return _bare(members[0]) if len(members) == 1 else annotation
     return annotation
 
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bumpstop import structure
 from bumpstop.io.case.keys import keyed
-from bumpstop.structure import Relation, RigidLink, Support
+from bumpstop.structure.support import Support
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.structure import StructureTables
+    from bumpstop.structure.link import RigidLink
+    from bumpstop.structure.relation import Relation
 
 __all__ = ["built_links", "built_relations", "built_supports"]
 
@@ -25,10 +28,12 @@ def built_relations(case: StructureTables) -> list[Relation]:
     relations = []
     for number, table in enumerate(case.relations):
         with keyed(f"relations.{number}"):
-            terms = table.terms.items()
-            relations.append(
-                Relation({(node, dof): w for node, dofs in terms for dof, w in dofs.items()})
-            )
+            terms = {
+                (node, dof): weight
+                for node, weights in table.terms.items()
+                for dof, weight in weights.items()
+            }
+            relations.append(structure.Relation(terms))
     return relations
 
 
@@ -37,7 +42,7 @@ def built_links(case: StructureTables) -> list[RigidLink]:
     links = []
     for name, table in case.links.items():
         with keyed(f"links.{name}"):
-            links.append(RigidLink(name, nodes=table.nodes, dofs=table.dofs))
+            links.append(structure.RigidLink(name, nodes=table.nodes, dofs=table.dofs))
     return links
 
 

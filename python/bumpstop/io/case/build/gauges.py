@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bumpstop import structure
 from bumpstop.io.case.keys import keyed
-from bumpstop.structure import Gauge
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.structure.gauge import Gauge
 
 __all__ = ["built_gauges"]
 
@@ -18,5 +19,5 @@ def built_gauges(case: CaseFile) -> list[Gauge]:
     gauges = []
     for name, table in case.gauges.items():
         with keyed(f"gauges.{name}"):
-            gauges.append(Gauge(name, beam=table.beam, at=table.at, fibre=table.fibre))
+            gauges.append(structure.Gauge(name, beam=table.beam, at=table.at, fibre=table.fibre))
     return gauges

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bumpstop import loads
 from bumpstop.errors import InputError
 from bumpstop.io.case.keys import keyed
-from bumpstop.loads import ModalState, RigidRotation
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.initial import InitialTable
@@ -23,8 +23,8 @@ def built_initial(table: InitialTable | None) -> InitialState | None:
         if table.rotation and table.modal:
             raise InputError("rotation and modal exclude each other", hint="give one of them")
         if table.rotation:
-            return RigidRotation(about=table.rotation.about, rate=table.rotation.rate)
+            return loads.RigidRotation(about=table.rotation.about, rate=table.rotation.rate)
         if table.modal:
             state = table.modal
-            return ModalState(displacement=state.displacement, velocity=state.velocity)
+            return loads.ModalState(displacement=state.displacement, velocity=state.velocity)
         raise InputError("is empty", hint="give rotation or modal, or leave [initial] out")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bumpstop import loads
 from bumpstop.io.case.keys import keyed
-from bumpstop.loads import Gravity, NodalForce
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
@@ -23,5 +23,5 @@ def built_loads(case: CaseFile) -> list[Load]:
 def _load(name: str, table: LoadTable) -> Load:
     with keyed(f"loads.{name}"):
         if table.type == "gravity":
-            return Gravity(name, acceleration=table.acceleration)
-        return NodalForce(name, node=table.node, force=table.force, moment=table.moment)
+            return loads.Gravity(name, acceleration=table.acceleration)
+        return loads.NodalForce(name, node=table.node, force=table.force, moment=table.moment)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
+from bumpstop import structure
 from bumpstop.io.case.build.constraints import built_links, built_relations, built_supports
 from bumpstop.io.case.build.names import named
 from bumpstop.io.case.build.sections import section_of
 from bumpstop.io.case.keys import keyed
-from bumpstop.structure import Beam, Bearing, Material, PointMass, Spring, Structure
+from bumpstop.structure.beam import Beam
+from bumpstop.structure.material import Material
+from bumpstop.structure.structure import Structure
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.beams import BeamTable
@@ -19,7 +22,8 @@ if TYPE_CHECKING:
 
 __all__ = ["built_structure"]
 
-T = TypeVar("T")
+_CLASSES = {"masses": "PointMass", "springs": "Spring", "bearings": "Bearing"}
+"""What parts are made of whose arguments are called as the keys of their tables."""
 
 
 def built_structure(case: StructureTables) -> Structure:
@@ -27,21 +31,21 @@ def built_structure(case: StructureTables) -> Structure:
     return Structure(
         nodes=case.nodes,
         beams=_beams(case),
-        masses=_parts("masses", PointMass, case.masses),
-        springs=_parts("springs", Spring, case.springs),
-        bearings=_parts("bearings", Bearing, case.bearings),
+        masses=_parts("masses", case.masses),
+        springs=_parts("springs", case.springs),
+        bearings=_parts("bearings", case.bearings),
         supports=built_supports(case),
         relations=built_relations(case),
         links=built_links(case),
     )
 
 
-def _parts(kind: str, part: Callable[..., T], tables: Mapping[str, Table]) -> list[T]:
-    """Return parts whose arguments are called as the keys of their tables."""
+def _parts(kind: str, tables: Mapping[str, Table]) -> list[Any]:
+    """Return the parts of a kind; its class is loaded with the first of them."""
     parts = []
     for name, table in tables.items():
         with keyed(f"{kind}.{name}"):
-            parts.append(part(name, **dict(table)))
+            parts.append(getattr(structure, _CLASSES[kind])(name, **dict(table)))
     return parts
 
 

@@ -1,25 +1,38 @@
 """The whole case file."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
 
 from bumpstop.io.case.fields.words import Name, Text
 from bumpstop.io.case.tables.basis import BasisTable
-from bumpstop.io.case.tables.components import ComponentTable
 from bumpstop.io.case.tables.gauges import GaugeTable
 from bumpstop.io.case.tables.initial import InitialTable
-from bumpstop.io.case.tables.joints import JointTable
-from bumpstop.io.case.tables.loads import LoadTable
-from bumpstop.io.case.tables.matrices import MatricesTable
-from bumpstop.io.case.tables.mesh import MeshTable
-from bumpstop.io.case.tables.modes import ModesTable
-from bumpstop.io.case.tables.outputs import OutputTable
-from bumpstop.io.case.tables.parts import PartTable
+from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.references import ReferenceTable
 from bumpstop.io.case.tables.run import RunTable
 from bumpstop.io.case.tables.stops import StopTable
 from bumpstop.io.case.tables.structure import StructureTables
+
+# What a case need not have is loaded with those that have it.
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.components import ComponentTable
+    from bumpstop.io.case.tables.joints import JointTable
+    from bumpstop.io.case.tables.loads import LoadTable
+    from bumpstop.io.case.tables.matrices import MatricesTable
+    from bumpstop.io.case.tables.mesh import MeshTable
+    from bumpstop.io.case.tables.modes import ModesTable
+    from bumpstop.io.case.tables.outputs import OutputTable
+    from bumpstop.io.case.tables.parts import PartTable
+else:
+    ComponentTable = later("components", "ComponentTable")
+    JointTable = later("joints", "JointTable")
+    LoadTable = later("loads", "LoadTable")
+    MatricesTable = later("matrices", "MatricesTable")
+    MeshTable = later("mesh", "MeshTable")
+    ModesTable = later("modes", "ModesTable")
+    OutputTable = later("outputs", "OutputTable")
+    PartTable = later("parts", "PartTable")
 
 __all__ = ["CaseFile"]
 

@@ -1,19 +1,31 @@
 """The tables that make a structure: those of a case, and those of each of its components."""
 
+from typing import TYPE_CHECKING
+
 from pydantic import Field
 
 from bumpstop.io.case.fields.quantities import Length3
 from bumpstop.io.case.fields.words import Name, NodeName
 from bumpstop.io.case.tables.beams import BeamTable
-from bumpstop.io.case.tables.bearings import BearingTable
-from bumpstop.io.case.tables.links import LinkTable
-from bumpstop.io.case.tables.masses import MassTable
+from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.materials import MaterialTable
-from bumpstop.io.case.tables.relations import RelationTable
 from bumpstop.io.case.tables.sections import SectionTable
-from bumpstop.io.case.tables.springs import SpringTable
 from bumpstop.io.case.tables.supports import SupportTable
 from bumpstop.io.case.tables.table import Table
+
+# What a case need not have is loaded with those that have it.
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.bearings import BearingTable
+    from bumpstop.io.case.tables.links import LinkTable
+    from bumpstop.io.case.tables.masses import MassTable
+    from bumpstop.io.case.tables.relations import RelationTable
+    from bumpstop.io.case.tables.springs import SpringTable
+else:
+    BearingTable = later("bearings", "BearingTable")
+    LinkTable = later("links", "LinkTable")
+    MassTable = later("masses", "MassTable")
+    RelationTable = later("relations", "RelationTable")
+    SpringTable = later("springs", "SpringTable")
 
 __all__ = ["StructureTables"]
 
