@@ -27,6 +27,16 @@ def test_modes(capsys: pytest.CaptureFixture[str]) -> None:
     assert ["1", "rigid", "mode:", "rotation", "about", "z", "through", "A"] in lines
 
 
+def test_modes_of_a_band(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "case.toml"
+    banded = SDNL32.read_text().replace("modes = 10\n", "modes = { band = [80, '600 Hz'] }\n")
+    file.write_text(banded)
+    assert main(["modes", str(file)]) == 0
+    said = capsys.readouterr().out
+    assert "3 modes from 80 Hz to 600 Hz, none missed" in said
+    assert "276.393" in said
+
+
 def test_modes_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["modes", str(SDNL32), "--json"]) == 0
     record = json.loads(capsys.readouterr().out)

@@ -48,6 +48,33 @@ def test_other_companions_and_all_modes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("modes", "meant"),
+    [
+        ("{ band = [0, 500] }", bs.ModesInBand(0.0, 500.0)),
+        ("{ band = ['80 Hz', '2 kHz'] }", bs.ModesInBand(80.0, 2000.0)),
+        ("{ around = '0.4 kHz', count = 3 }", bs.ModesAround(400.0, 3)),
+    ],
+)
+def test_modes_of_a_band_and_around_a_frequency(modes: str, meant: Any, tmp_path: Path) -> None:
+    found = basis(tmp_path, f"modes = {modes}\n")
+    structure = found.structure
+    assert structure is not None
+    asked = bs.ModalBasis.from_structure(structure, modes=meant)
+    np.testing.assert_array_equal(found.shapes, asked.shapes)
+    assert found.sturm == asked.sturm
+    assert 0 < len(found.omega2) < 21
+
+
+def test_a_variant_changes_the_band(tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    banded = SDNL32.replace(ASKED, "modes = { band = [0, 500] }\n")
+    changes = '"basis.modes.band.1" = "1 kHz"\n"stops.spring.stiffness" = '
+    file.write_text(banded.replace('"stops.spring.stiffness" = ', changes, 1))
+    soft, stiff = (problem.basis for problem in bs.load_case(file).problems.values())
+    assert sorted([len(soft.omega2), len(stiff.omega2)]) == [3, 5]
+
+
+@pytest.mark.parametrize(
     ("damping", "rule"),
     [
         ("{ rayleigh = { alpha = 2.0, beta = '20 us' } }", RayleighDamping(alpha=2.0, beta=2e-5)),
@@ -69,6 +96,17 @@ def test_rules_of_damping(damping: str, rule: Any, tmp_path: Path) -> None:
     [
         ('modes = "many"', r'basis.modes: must be a whole number, or "all" \(got .many'),
         ("modes = 0", "basis.modes: must be 1 or more"),
+        ("modes = {}", r"basis.modes.around: is missing; give { band ="),
+        ("modes = { around = 120 }", "basis.modes.count: is missing"),
+        ("modes = { around = 120, count = 0 }", r"basis.modes.count: must be 1 or more \(got 0"),
+        ("modes = { around = 120, count = 99 }", r"basis.modes: more modes than free .* \(got 99"),
+        ("modes = { around = '5 m', count = 2 }", "basis.modes.around: .*'5 m'"),
+        ("modes = { bandd = [0, 5] }", "basis.modes.bandd: unknown key .*'band'"),
+        ("modes = { band = [0, 5], count = 3 }", r"basis.modes.count: excludes band \(got 3\)"),
+        ("modes = { band = 500 }", r"basis.modes.band: must be a list of 2 frequencies \(got 500"),
+        ("modes = { band = [-1, 500] }", r"basis.modes.band.0: must not be negative \(got -1"),
+        ("modes = { band = [5, 5] }", r"basis.modes.band: must end above its start \(got \[5, 5"),
+        ("modes = { band = [1, 2] }", "basis.modes: there is no mode from 1 Hz to 2 Hz"),
         ("modes = 5\ndamping = -0.01", "basis.damping: must not be negative"),
         ("modes = 5\ndamping = [0.1, -0.1]", "basis.damping.1: must not be negative"),
         ("modes = 5\ndamping = {}", "basis.damping: must have one key"),

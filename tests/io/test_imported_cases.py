@@ -220,6 +220,10 @@ MISTAKES: list[tuple[str, str]] = [
     (GOOD.replace("modes = 1", "modes = 2"), r"basis\.modes: more modes than free dofs .got 2."),
     (MODES.replace("modes.csv", "shapes.csv"), r"shapes\.csv: no such file"),
     (MODES.replace("modes = 1", "modes = 2"), r"basis\.modes: more modes than the file has"),
+    (
+        MODES.replace("modes = 1", "modes.band = [4, 9]"),
+        r"basis\.modes: there is no mode",
+    ),
     (MODES.replace('node = "P"', 'node = "Q"'), r"stops\.spring\.node: no mode shape at this node"),
     (MODES.replace("[1, 0, 0]", "[0, 1, 0]"), r"stops\.spring.*: no mode shape for this dof"),
     (

@@ -18,6 +18,7 @@ from bumpstop.modal.given import given_components, given_labels, given_vectors, 
 from bumpstop.modal.modal_damping import modal_damping, with_companions
 from bumpstop.modal.projected import projected
 from bumpstop.modal.rigid_modes import require_rigid_modes
+from bumpstop.modal.selected import require_modes
 from bumpstop.modal.selection import ModeSelection, mode_selection
 from bumpstop.structure.dofs import DOFS, Dof, Place
 from bumpstop.structure.free_motions import free_motions
@@ -143,11 +144,14 @@ class ModalBasis:
         Raises
         ------
         InputError
-            If a value cannot be used, the structure has fewer free dofs than modes, or a place
-            is unknown or held; or if other motions strain nothing than ``rigid_modes`` says.
+            If a value cannot be used, the structure has fewer free dofs than modes or no mode
+            in the band, or a place is unknown or held; or if other motions strain nothing than
+            ``rigid_modes`` says.
         """
         require_rigid_modes(structure, rigid_modes)
-        omega2, shapes, sturm = model_modes(structure, mode_selection(modes))
+        selection = mode_selection(modes)
+        omega2, shapes, sturm = model_modes(structure, selection)
+        require_modes(len(omega2), selection)
         if not (static_shapes or constraint_shapes or base_shapes):
             ratios = with_companions(damping, static_damping, len(omega2), 0)
             plain = cls._from_shapes(structure, omega2, shapes, ratios, damping_coupling)

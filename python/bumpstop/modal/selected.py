@@ -8,10 +8,17 @@ from typing import NamedTuple
 import numpy as np
 
 from bumpstop.arguments import FloatArray
-from bumpstop.modal.selection import AllModes, LowestModes, ModesAround, ModeSelection
+from bumpstop.errors import InputError
+from bumpstop.modal.selection import (
+    AllModes,
+    LowestModes,
+    ModesAround,
+    ModeSelection,
+    ModesInBand,
+)
 from bumpstop.structure.sparse import IndexArray
 
-__all__ = ["Range", "chosen", "omega2_of", "range_of"]
+__all__ = ["Range", "chosen", "omega2_of", "range_of", "require_modes"]
 
 ENDS = 1e-9
 """A band is this much wider than said, so that a mode on its end belongs to it."""
@@ -73,6 +80,18 @@ def chosen(selection: ModeSelection, omega2: FloatArray) -> IndexArray:
         away = np.abs(omega2 - omega2_of(selection.frequency))
         return np.sort(np.argsort(away, kind="stable")[: selection.count])
     return np.arange(len(omega2))
+
+
+def require_modes(found: int, selection: ModeSelection) -> None:
+    """Raise InputError where nothing was found, as only in a band can be.
+
+    >>> require_modes(0, ModesInBand(10.0, 25.0))
+    Traceback (most recent call last):
+    bumpstop.errors.InputError: modes: there is no mode from 10 Hz to 25 Hz
+    """
+    if found == 0 and isinstance(selection, ModesInBand):
+        band = f"from {selection.low:g} Hz to {selection.high:g} Hz"
+        raise InputError(f"there is no mode {band}", key="modes")
 
 
 def _gap_after(values: FloatArray, count: int) -> float:

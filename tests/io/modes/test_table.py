@@ -1,11 +1,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from bumpstop import InputError
+from bumpstop import InputError, ModesAround, ModesInBand
 from bumpstop.io import ModeSet, read_modes
 
 TABLE = """\
@@ -38,6 +39,22 @@ def test_what_is_left_out(tmp_path: Path) -> None:
     np.testing.assert_allclose(basis.frequencies, [4.0])
     np.testing.assert_array_equal(basis.damping_ratio, [0.03])
     np.testing.assert_array_equal(basis.row("P", "dy"), [2.0])
+
+
+@pytest.mark.parametrize(
+    ("modes", "expected"),
+    [
+        (2, [3.0, 4.0]),
+        (ModesInBand(4.0, 7.0), [4.0, 7.0]),
+        (ModesAround(6.0, 2), [4.0, 7.0]),
+        ("all", [3.0, 4.0, 7.0, 9.0]),
+    ],
+)
+def test_some_of_the_modes(modes: Any, expected: list[float], tmp_path: Path) -> None:
+    table = "frequency,modal_mass,P.dx\n9,1,9\n4,1,4\n3,1,3\n7,1,7\n"
+    basis = read(tmp_path, table).basis(modes=modes)
+    np.testing.assert_allclose(basis.frequencies, expected)
+    np.testing.assert_array_equal(basis.row("P", "dx"), expected)
 
 
 def test_a_users_own_modal_mass(tmp_path: Path) -> None:

@@ -11,6 +11,8 @@ from bumpstop.arguments import FloatArray, not_negative, one_of, positive, refus
 from bumpstop.errors import InputError
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.modal.damping import Damping
+from bumpstop.modal.selected import chosen, range_of, require_modes
+from bumpstop.modal.selection import AllModes, ModeSelection, mode_selection
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.sparse import IndexArray
 
@@ -62,7 +64,7 @@ class ModeSet:
     def basis(
         self,
         *,
-        modes: int | None = None,
+        modes: int | str | ModeSelection | None = None,
         damping: Damping | None = None,
         modal_mass: float | Sequence[float] | None = None,
     ) -> ModalBasis:
@@ -71,7 +73,8 @@ class ModeSet:
         Parameters
         ----------
         modes
-            How many modes to take, the lowest ones; all where left out.
+            How many modes to take, the lowest ones; ``ModesInBand``, ``ModesAround``; all of
+            them where left out.
         damping
             Ratio of critical damping, one for all modes or one for each that is taken, or a
             rule such as ``RayleighDamping``; what the file says where left out.
@@ -82,25 +85,35 @@ class ModeSet:
         Raises
         ------
         InputError
-            If there are fewer modes than wanted, or nobody tells the modal masses.
+            If there are fewer modes than wanted or none in the band, or nobody tells the modal
+            masses.
         """
-        count = len(self.frequency) if modes is None else modes
-        if count > len(self.frequency):
-            hint = f"the file has {len(self.frequency)}"
-            raise InputError("more modes than the file has", key="modes", value=modes, hint=hint)
-        lowest = np.argsort(self.frequency, kind="stable")[:count]
-        mass = modal_mass if modal_mass is not None else _taken(self.modal_mass, lowest)
+        taken = self._taken(AllModes() if modes is None else mode_selection(modes))
+        mass = modal_mass if modal_mass is not None else _masses(self.modal_mass, taken)
         return ModalBasis.from_modes(
-            frequency=self.frequency[lowest].tolist(),
-            damping=self.damping[lowest].tolist() if damping is None else damping,
+            frequency=self.frequency[taken].tolist(),
+            damping=self.damping[taken].tolist() if damping is None else damping,
             modal_mass=mass,
             shapes={
-                dof: row[lowest].tolist() for dof, row in zip(self.dofs, self.shapes, strict=True)
+                dof: row[taken].tolist() for dof, row in zip(self.dofs, self.shapes, strict=True)
             },
         )
 
+    def _taken(self, selection: ModeSelection) -> IndexArray:
+        """Return the numbers of the selected modes, by their frequencies."""
+        most = len(self.frequency)
+        asked = getattr(selection, "count", 0)
+        if asked > most:
+            hint = f"the file has {most}"
+            raise InputError("more modes than the file has", key="modes", value=asked, hint=hint)
+        order = np.argsort(self.frequency, kind="stable")
+        omega2 = (2.0 * np.pi * self.frequency[order]) ** 2
+        inside = range_of(selection, omega2).holds(omega2)
+        require_modes(len(inside), selection)
+        return order[inside[chosen(selection, omega2[inside])]]
 
-def _taken(modal_mass: FloatArray | None, modes: IndexArray) -> list[float]:
+
+def _masses(modal_mass: FloatArray | None, modes: IndexArray) -> list[float]:
     if modal_mass is None:
         hint = "the file does not tell what the shapes are scaled to"
         raise InputError("is missing", key="modal_mass", hint=hint)

@@ -40,7 +40,7 @@ def built_modes(case: CaseFile, table: ModesTable, folder: Path) -> ModalBasis:
         given = read_modes(folder / table.file)
     with keyed(renamed=_KEYS):
         return given.basis(
-            modes=case.basis.modes if isinstance(case.basis.modes, int) else None,
+            modes=case.basis.modes,
             damping=case.basis.damping if "damping" in said else None,
             modal_mass=table.modal_mass,
         )

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 from bumpstop.arguments import did_you_mean
 from bumpstop.errors import InputError
+from bumpstop.io.case.fields.nested import object_schema, read_at, refuse_unknown
 from bumpstop.io.case.fields.plain import Plain, read_list
 from bumpstop.io.case.fields.quantities import read_number
 from bumpstop.io.units import Dimension
@@ -18,8 +19,6 @@ _RATIO = Dimension("a pure number", "", "0.01")
 _RATE = Dimension("a rate", "1/s", "2 1/s")
 _TIME = Dimension("a time", "s", "20 us")
 _FREQUENCY = Dimension("a frequency", "Hz", "10 Hz")
-
-T = TypeVar("T")
 
 
 def _read_damping(value: object) -> float | list[float] | DampingLaw:
@@ -39,18 +38,18 @@ def _read_rule(table: Mapping[str, Any]) -> DampingLaw:
         "rayleigh": _read_rayleigh,
         "structural": lambda value: StructuralDamping(_read_ratio(value)),
     }
-    _refuse_unknown(table, rules)
+    refuse_unknown(table, rules)
     if len(table) != 1:
         raise InputError("must have one key", value=dict(table), hint=did_you_mean("", rules))
     ((rule, value),) = table.items()
-    return _at(rule, rules[rule], value)
+    return read_at(rule, rules[rule], value)
 
 
 def _read_rayleigh(table: object) -> RayleighDamping:
     if not isinstance(table, Mapping):
         hint = "give alpha and beta, or frequencies and ratios"
         raise InputError("must be a table", value=table, hint=hint)
-    _refuse_unknown(table, ("alpha", "beta", "frequencies", "ratios"))
+    refuse_unknown(table, ("alpha", "beta", "frequencies", "ratios"))
     terms = {"alpha": _RATE, "beta": _TIME}
     if "frequencies" in table or "ratios" in table:
         for key in ("frequencies", "ratios"):
@@ -60,10 +59,12 @@ def _read_rayleigh(table: object) -> RayleighDamping:
             if key in table:
                 raise InputError("excludes frequencies and ratios", key=key, value=table[key])
         return RayleighDamping.from_ratios(
-            frequencies=_at("frequencies", _pair(_FREQUENCY), table["frequencies"]),
-            ratios=_at("ratios", _pair(_RATIO), table["ratios"]),
+            frequencies=read_at("frequencies", _pair(_FREQUENCY), table["frequencies"]),
+            ratios=read_at("ratios", _pair(_RATIO), table["ratios"]),
         )
-    given = {key: _at(key, _one(unit), table[key]) for key, unit in terms.items() if key in table}
+    given = {
+        key: read_at(key, _one(unit), table[key]) for key, unit in terms.items() if key in table
+    }
     return RayleighDamping(**given)
 
 
@@ -75,37 +76,14 @@ def _pair(dimension: Dimension) -> Callable[[object], list[float]]:
     return lambda value: read_list(value, _one(dimension), "numbers", 2)
 
 
-def _at(key: str, read: Callable[[Any], T], value: object) -> T:
-    """Read what stands under a key, and put it before the key of a mistake."""
-    try:
-        return read(value)
-    except InputError as error:
-        inner = f"{key}.{error.key}" if error.key else key
-        raise InputError(error.what, key=inner, value=error.value, hint=error.hint) from error
-
-
-def _refuse_unknown(
-    table: Mapping[str, Any], known: Mapping[str, object] | tuple[str, ...]
-) -> None:
-    for key in table:
-        if key not in known:
-            raise InputError(
-                "unknown key", key=key, value=table[key], hint=did_you_mean(key, known)
-            )
-
-
-def _object(**properties: dict[str, Any]) -> dict[str, Any]:
-    return {"type": "object", "properties": properties, "additionalProperties": False}
-
-
 _NUMBER = {"anyOf": [{"type": "number", "minimum": 0}, {"type": "string"}]}
 _PAIR = {"type": "array", "items": _NUMBER, "minItems": 2, "maxItems": 2}
 _SCHEMA = {
     "anyOf": [
         *_NUMBER["anyOf"],
         {"type": "array", "items": _NUMBER, "minItems": 1},
-        _object(
-            rayleigh=_object(
+        object_schema(
+            rayleigh=object_schema(
                 alpha=_NUMBER | {"description": "Damping by mass, in 1/s"},
                 beta=_NUMBER | {"description": "Damping by stiffness, in s"},
                 frequencies=_PAIR | {"description": "Two frequencies, in Hz"},

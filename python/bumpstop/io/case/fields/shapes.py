@@ -1,4 +1,4 @@
-"""Which modes and static shapes a basis is made of."""
+"""Where the static shapes of a basis act."""
 
 from __future__ import annotations
 
@@ -11,19 +11,9 @@ from bumpstop.io.case.fields.words import choice, read_node
 from bumpstop.io.units import Dimension
 from bumpstop.structure.dofs import DOFS, Place
 
-__all__ = ["Modes", "Places", "PlacesOrStops"]
+__all__ = ["Places", "PlacesOrStops"]
 
 _COMPONENT = Dimension("a pure number", "", "0.6")
-
-
-def _read_modes(value: object) -> int | str:
-    if value == "all":
-        return "all"
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise InputError('must be a whole number, or "all"', value=value)
-    if value < 1:
-        raise InputError("must be 1 or more", value=value)
-    return value
 
 
 def _read_places(value: object) -> list[Place]:
@@ -58,10 +48,6 @@ _PLACE: dict[str, Any] = {
 }
 _PLACES: dict[str, Any] = {"type": "array", "items": _PLACE, "minItems": 1}
 
-Modes = Annotated[
-    int | str,
-    Plain(_read_modes, {"anyOf": [{"type": "integer", "minimum": 1}, {"const": "all"}]}),
-]
 Places = Annotated[list[Place], Plain(_read_places, _PLACES)]
 PlacesOrStops = Annotated[
     list[Place] | str, Plain(_read_places_or_stops, {"anyOf": [{"const": "stops"}, _PLACES]})

@@ -6,8 +6,9 @@ from pydantic import Field
 
 from bumpstop.io.case.fields.counts import CountFromZero
 from bumpstop.io.case.fields.damping import ModalDamping
+from bumpstop.io.case.fields.modes import Modes
 from bumpstop.io.case.fields.quantities import Ratio
-from bumpstop.io.case.fields.shapes import Modes, Places, PlacesOrStops
+from bumpstop.io.case.fields.shapes import Places, PlacesOrStops
 from bumpstop.io.case.fields.words import Dofs, choice
 from bumpstop.io.case.tables.table import Table
 
@@ -18,7 +19,9 @@ class BasisTable(Table):
     """The modes and static shapes on which the structure's motion is written."""
 
     modes: Modes = Field(
-        description="Number of modes, the lowest ones, rigid-body modes included; or all there are"
+        description='Number of modes, the lowest ones, rigid-body modes included; or `"all"`; '
+        "or those of a band or around a frequency, in Hz: `{ band = [0, 500] }`, "
+        "`{ around = 120, count = 5 }`"
     )
     damping: ModalDamping = Field(
         default=0.0,
