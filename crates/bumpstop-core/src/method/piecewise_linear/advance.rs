@@ -91,6 +91,8 @@ struct Tables {
 pub(crate) struct Walk {
     tables: Vec<Tables>,
     longest: f64,
+    /// The shortest typical time of the present phase.
+    period: f64,
     left: Vec<ComplexBlock>,
     sizes: Vec<RealBlock>,
     bound: Vec<RealBlock>,
@@ -208,6 +210,7 @@ impl Walk {
             self.left.fill(ComplexBlock::ONE);
             self.sizes.fill(RealBlock::ONE);
         }
+        self.period = self.longest.min(1.0 / spectrum.fastest);
         let mut pace = 0.0f64;
         for signal in path.signals {
             pace = pace.max(signal.pace(spectrum));
@@ -302,8 +305,7 @@ impl Walk {
             let growth = growth[b].lanes::<I>().max(Lanes::of(1.0));
             self.bound[b].put(self.sizes[b].lanes() * growth);
         }
-        let smallest =
-            SMALLEST_CELL * (time + width).max(self.width(0).min(1.0 / spectrum.fastest));
+        let smallest = SMALLEST_CELL * (time + width).max(self.period);
         let mut first: Option<Crossing> = None;
         for watched in 0..path.signals.len() {
             let middle = time + 0.5 * width;
