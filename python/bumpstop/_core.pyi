@@ -71,10 +71,10 @@ def component_labels(size: int, rows: Index, columns: Index) -> Index:
     """Return for each vertex of a graph the lowest vertex that it is joined to, (size,)."""
 
 class System:
-    """``q'' + C q' + diag(omega2) q = f``, unit modal mass."""
+    """``q'' + (diag(damping) + coupling) q' + diag(omega2) q = f``, unit modal mass."""
 
-    def __init__(self, omega2: Array, damping: Array) -> None:
-        """Take omega2 (N,) in rad2/s2 and the diagonal damping (N,) in rad/s."""
+    def __init__(self, omega2: Array, damping: Array, coupling: Array | None = None) -> None:
+        """Take omega2 (N,) in rad2/s2, and damping (N,) and coupling (N, N) in rad/s."""
 
 class Stop:
     """A unilateral spring and damper at distance ``d = gap + row . q``."""

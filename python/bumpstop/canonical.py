@@ -18,7 +18,7 @@ __all__ = ["CanonicalForm", "canonical_form"]
 
 
 class CanonicalForm(NamedTuple):
-    """``q'' + C q' + diag(omega2) q = force + laws``, unit modal mass, N modes."""
+    """``q'' + (C + G) q' + diag(omega2) q = force + laws``, unit modal mass, N modes."""
 
     system: _core.System
     laws: list[_core.Stop]
@@ -36,13 +36,15 @@ def canonical_form(problem: Problem) -> CanonicalForm:
     Raises
     ------
     InputError
-        If something that the problem names cannot be found on the basis, or more than the
-        laws couples its modes.
+        If something that the problem names cannot be found on the basis, or circulatory forces
+        act.
     bumpstop._core.CoreError
         If the core refuses the numbers.
     """
     basis = problem.basis
-    _refuse_coupling(basis)
+    if basis.circulatory is not None:
+        hint = "leave out bearings of unequal cross stiffness"
+        raise InputError("circulatory forces couple the modes", key="basis", hint=hint)
     modes = len(basis.omega2)
     laws = [_core.Stop(law.row(basis), law.gap, law.stiffness, law.damping) for law in problem.laws]
     force = sum((load.modal_force(basis) for load in problem.loads), np.zeros(modes))
@@ -50,16 +52,16 @@ def canonical_form(problem: Problem) -> CanonicalForm:
         displacement, velocity = np.zeros(modes), np.zeros(modes)
     else:
         displacement, velocity = problem.initial.modal_state(basis)
-    system = _core.System(basis.omega2, basis.damping)
+    system = _core.System(basis.omega2, *_velocity_terms(basis))
     return CanonicalForm(system, laws, force, displacement, velocity)
 
 
-def _refuse_coupling(basis: ModalBasis) -> None:
-    """Raise where more than the laws couples the modes: the core cannot integrate that yet."""
-    for what in ("gyroscopic", "circulatory"):
-        if getattr(basis, what) is not None:
-            hint = "leave out what spins, and bearings of unequal cross stiffness"
-            raise InputError(f"{what} forces couple the modes", key="basis", hint=hint)
-    if basis.couples:
-        hint = 'make the basis with damping_coupling="diagonal", which keeps their own damping'
-        raise InputError("damping couples the modes", key="basis", hint=hint)
+def _velocity_terms(basis: ModalBasis) -> tuple[FloatArray, FloatArray | None]:
+    """Return the damping of each mode, and the matrix of what couples velocities, if any."""
+    if not basis.couples and basis.gyroscopic is None:
+        return basis.damping, None
+    matrix = np.diag(basis.damping) if basis.damping_matrix is None else basis.damping_matrix.copy()
+    if basis.gyroscopic is not None:
+        matrix += basis.gyroscopic
+    own = np.maximum(matrix.diagonal(), 0.0)
+    return own, matrix - np.diag(own)

@@ -87,6 +87,7 @@ def simulate(
     one_of("method", method, METHODS)
     chosen, reason = _choose(method)
     _check_options(chosen, unknown, dt=dt, beyond_stability_limit=beyond_stability_limit or None)
+    _refuse_coupled_modes(chosen, problem)
     model = _model(problem)
     step = _checked_step(chosen, dt, problem.duration, model, beyond_stability_limit)
     try:
@@ -126,6 +127,18 @@ def _check_options(method: str, unknown: dict[str, object], **known: object) -> 
             key=name,
             value=given[name],
             hint=hint if takers else did_you_mean(name, takes),
+        )
+
+
+def _refuse_coupled_modes(method: str, problem: Problem) -> None:
+    """Raise for a scheme that carries each mode by itself where something couples them."""
+    basis = problem.basis
+    if method in FIXED_STEP_METHODS and (basis.couples or basis.gyroscopic is not None):
+        raise InputError(
+            "does not take modes that damping or gyroscopic forces couple",
+            key="method",
+            value=method,
+            hint="the exact method does",
         )
 
 

@@ -90,7 +90,7 @@ def test_rigid_modes_of_different_drag_under_a_push_are_refused() -> None:
     problem = three_modes(
         omega2=np.array([0.0, 0.0, 4096.0]), damping=np.array([0.0, 2.0, 1.0]), force=PUSH
     )
-    with pytest.raises(CoreError, match="give them the same damping"):
+    with pytest.raises(CoreError, match="need the same damping"):
         problem.solve()
 
 

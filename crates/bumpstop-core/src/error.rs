@@ -101,6 +101,14 @@ pub enum Error {
         /// Size of the matrices.
         available: usize,
     },
+    /// A method that needs modes of their own was given coupled ones.
+    #[error(
+        "the {method} method does not take modes that damping or gyroscopic forces couple; the exact method does"
+    )]
+    CoupledModes {
+        /// The method.
+        method: &'static str,
+    },
     /// A fixed step would be unstable.
     #[error("a step of {dt:e} s is above the stability limit of {method}, {limit:e} s")]
     Unstable {
@@ -135,9 +143,9 @@ pub enum Error {
         /// Instant, in s.
         time: f64,
     },
-    /// Rigid-body modes of different damping are driven against one law.
+    /// A constant force drives coupled rigid-body motions for ever.
     #[error(
-        "several rigid-body modes of different damping push on one law under a constant force: their steady drift is not supported; give them the same damping"
+        "a constant force drives a rigid-body motion that laws, damping or gyroscopic forces couple to others, and it drifts for ever: this is not supported; rigid-body modes on one law need the same damping"
     )]
     NoRest,
     /// No spectrum of a phase passed its check.

@@ -2,18 +2,27 @@
 
 use crate::core_error;
 use bumpstop_core::{law, system};
-use numpy::PyReadonlyArray1;
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-/// `q'' + C q' + diag(omega2) q = f`, unit modal mass.
+/// `q'' + (diag(damping) + coupling) q' + diag(omega2) q = f`, unit modal mass.
 #[pyclass(frozen, module = "bumpstop._core")]
 pub struct System(pub system::ModalSystem);
 
 #[pymethods]
 impl System {
     #[new]
-    fn new(omega2: PyReadonlyArray1<f64>, damping: PyReadonlyArray1<f64>) -> PyResult<Self> {
+    #[pyo3(signature = (omega2, damping, coupling=None))]
+    fn new(
+        omega2: PyReadonlyArray1<f64>,
+        damping: PyReadonlyArray1<f64>,
+        coupling: Option<PyReadonlyArray2<f64>>,
+    ) -> PyResult<Self> {
         let system = system::ModalSystem::new(values(&omega2), values(&damping));
+        let system = system.and_then(|system| match coupling {
+            Some(coupling) => system.with_coupling(rows(&coupling)),
+            None => Ok(system),
+        });
         system.map(Self).map_err(core_error)
     }
 }
@@ -35,4 +44,10 @@ impl Stop {
 /// The numbers of an array of any layout.
 pub(crate) fn values(array: &PyReadonlyArray1<f64>) -> Vec<f64> {
     array.as_array().iter().copied().collect()
+}
+
+/// The rows of a matrix of any layout.
+fn rows(array: &PyReadonlyArray2<f64>) -> Vec<Vec<f64>> {
+    let rows = array.as_array();
+    rows.outer_iter().map(|row| row.to_vec()).collect()
 }

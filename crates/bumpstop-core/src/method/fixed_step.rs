@@ -214,6 +214,14 @@ impl StepRecord {
     }
 }
 
+/// Refuses a system whose modes are coupled: the schemes carry each by itself.
+pub(crate) fn check_uncoupled(method: &'static str, system: &ModalSystem) -> Result<()> {
+    match system.coupling() {
+        Some(_) => Err(Error::CoupledModes { method }),
+        None => Ok(()),
+    }
+}
+
 /// Refuses a step above the limit, unless it was asked for by name.
 pub(crate) fn check_step(method: &'static str, step: Step, limit: f64) -> Result<()> {
     if step.dt > limit && !step.beyond_stability_limit {

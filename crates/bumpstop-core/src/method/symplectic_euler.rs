@@ -7,8 +7,8 @@
 
 use super::Observer;
 use super::fixed_step::{
-    Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, coupling,
-    highest_frequency, laws_damping, modal, pushed,
+    Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, check_uncoupled,
+    coupling, highest_frequency, laws_damping, modal, pushed,
 };
 use crate::error::Result;
 use crate::history::History;
@@ -39,6 +39,7 @@ pub fn simulate<L: Law>(
     observer: Observer<'_>,
 ) -> Result<History<L>> {
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Backward)?;
+    check_uncoupled(NAME, &problem.system)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = SymplecticEuler {
         problem,

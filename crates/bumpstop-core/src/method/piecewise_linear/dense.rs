@@ -17,7 +17,7 @@ struct Coupled {
     damping: Mat<f64>,
 }
 
-/// Couples the modes that several laws push together.
+/// Couples the modes that laws push together and those whose velocities are coupled.
 pub(crate) fn couple<L: Law>(
     spectrum: &mut Spectrum,
     problem: &Problem<L>,
@@ -25,7 +25,10 @@ pub(crate) fn couple<L: Law>(
 ) -> Result<()> {
     let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
     let modes: Vec<usize> = (0..omega2.len())
-        .filter(|&i| acting.iter().any(|a| a.row(problem)[i] != 0.0))
+        .filter(|&i| {
+            acting.iter().any(|a| a.row(problem)[i] != 0.0)
+                || problem.system.coupling().is_some_and(|c| c.involves(i))
+        })
         .collect();
     let n = modes.len();
     let sum = |r: usize, c: usize, factor: fn(&Acting) -> f64| -> f64 {
@@ -39,7 +42,10 @@ pub(crate) fn couple<L: Law>(
             diagonal(omega2, r, c) + sum(r, c, |a| a.stiffness)
         }),
         damping: Mat::from_fn(n, n, |r, c| {
-            diagonal(damping, r, c) + sum(r, c, |a| a.damping)
+            let coupling = problem.system.coupling();
+            diagonal(damping, r, c)
+                + sum(r, c, |a| a.damping)
+                + coupling.map_or(0.0, |coupling| coupling.at(modes[r], modes[c]))
         }),
     };
     spectrum.members = (modes.iter().enumerate())
@@ -59,8 +65,7 @@ pub(crate) fn couple<L: Law>(
             .sum();
         problem.forcing.forces()[modes[i]] + constant
     });
-    let rest = coupled.stiffness.full_piv_lu().solve(&forces);
-    spectrum.at_rest = (0..n).map(|i| rest[(i, 0)]).collect();
+    spectrum.at_rest = coupled.rest(&forces)?;
     coupled.solve_into(spectrum)
 }
 
@@ -80,7 +85,28 @@ pub(crate) fn set_coupled(spectrum: &mut Spectrum, coupling: &Coupling) -> Resul
     coupled.solve_into(spectrum)
 }
 
+/// What is left of a constant force at rest, relative to it, above which there is no rest.
+const UNBALANCED: f64 = 1e-9;
+
 impl Coupled {
+    /// The position at rest under constant forces; that of no force where nothing pushes, even if
+    /// some motion is free.
+    fn rest(&self, forces: &Mat<f64>) -> Result<Vec<f64>> {
+        let n = self.stiffness.nrows();
+        let size = forces.norm_max();
+        if size == 0.0 {
+            return Ok(vec![0.0; n]);
+        }
+        let rest = self.stiffness.full_piv_lu().solve(forces);
+        let lack = &self.stiffness * &rest - forces;
+        // Written so that a lack which is not a number is one too large.
+        let balanced = (0..n).all(|i| lack[(i, 0)].abs() <= UNBALANCED * size);
+        if !balanced {
+            return Err(Error::NoRest);
+        }
+        Ok((0..n).map(|i| rest[(i, 0)]).collect())
+    }
+
     /// Eigenvalues, shapes and left vectors. Velocities are scaled by a typical frequency so
     /// that the state matrix is balanced; left vectors are rows of the inverse of the right ones.
     fn solve_into(&self, spectrum: &mut Spectrum) -> Result<()> {

@@ -15,6 +15,8 @@ use super::spectrum::{Single, Spectrum};
 use crate::law::{Law, Piece};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
+use crate::system::Coupling as VelocityCoupling;
+use faer::{Mat, Side};
 
 /// A quadratic form of the coupled rates.
 #[derive(Debug, Clone)]
@@ -107,7 +109,6 @@ impl Dissipation {
     /// The forms for the laws' states of a spectrum.
     #[inline(always)]
     pub(crate) fn new<I: Instructions, L: Law>(problem: &Problem<L>, spectrum: &Spectrum) -> Self {
-        let damped = spectrum.group_damping.iter().any(|c| *c != 0.0);
         let mut first_view = 0;
         let laws = (problem.laws.iter().zip(&spectrum.states))
             .map(|(law, state)| {
@@ -120,10 +121,8 @@ impl Dissipation {
                 })
             })
             .collect();
-        let shapes: Vec<&[ComplexBlock]> =
-            (0..spectrum.groups).map(|g| spectrum.shape(g)).collect();
         Self {
-            modal: damped.then(|| Form::new::<I>(spectrum, &shapes, &spectrum.group_damping)),
+            modal: modal_form::<I, L>(problem, spectrum),
             laws,
         }
     }
@@ -169,6 +168,64 @@ impl Dissipation {
         }
         total
     }
+}
+
+/// The form of the structure's own damping; `None` where the groups are not damped.
+#[inline(always)]
+fn modal_form<I: Instructions, L: Law>(problem: &Problem<L>, spectrum: &Spectrum) -> Option<Form> {
+    if spectrum.groups == 0 {
+        return None;
+    }
+    if let Some(coupling) = problem.system.coupling() {
+        let (rows, factors) = principal_dampers(coupling, spectrum);
+        let rows: Vec<&[ComplexBlock]> = rows.iter().map(Vec::as_slice).collect();
+        return Some(Form::new::<I>(spectrum, &rows, &factors));
+    }
+    if spectrum.group_damping.iter().all(|c| *c == 0.0) {
+        return None;
+    }
+    let mut rows = Vec::with_capacity(spectrum.groups);
+    for group in 0..spectrum.groups {
+        rows.push(spectrum.shape(group));
+    }
+    Some(Form::new::<I>(spectrum, &rows, &spectrum.group_damping))
+}
+
+/// The symmetric part of a damping matrix as a sum of dampers: how each sees the exponents, and
+/// its constant. The skew part, of gyroscopic forces, takes nothing out.
+fn principal_dampers(
+    coupling: &VelocityCoupling,
+    spectrum: &Spectrum,
+) -> (Vec<Vec<ComplexBlock>>, Vec<f64>) {
+    let n = spectrum.groups;
+    let mode = |group: usize| spectrum.members[group].mode;
+    let symmetric = Mat::from_fn(n, n, |r, c| {
+        let own = if r == c {
+            spectrum.group_damping[r]
+        } else {
+            0.0
+        };
+        let (row, column) = (mode(r), mode(c));
+        own + 0.5 * (coupling.at(row, column) + coupling.at(column, row))
+    });
+    let Ok(eigen) = symmetric.self_adjoint_eigen(Side::Lower) else {
+        return (Vec::new(), Vec::new());
+    };
+    let rows = (0..n).map(|k| {
+        let mut row = vec![ComplexBlock::ZERO; spectrum.coupled_width];
+        for group in 0..n {
+            let weight = eigen.U()[(group, k)];
+            for (to, shape) in row.iter_mut().zip(spectrum.shape(group)) {
+                for lane in 0..LANES {
+                    to.re[lane] += weight * shape.re[lane];
+                    to.im[lane] += weight * shape.im[lane];
+                }
+            }
+        }
+        row
+    });
+    let factors = (0..n).map(|k| eigen.S()[k]).collect();
+    (rows.collect(), factors)
 }
 
 /// The rates of a single motion's own exponentials.

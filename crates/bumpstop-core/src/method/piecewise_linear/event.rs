@@ -114,13 +114,26 @@ pub(crate) fn initial_states<L: Law>(problem: &Problem<L>) -> Vec<State> {
 fn free_derivatives<L: Law>(problem: &Problem<L>, law: &L) -> ([Local<f64>; 4], [f64; 4]) {
     let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
     let forces = problem.forcing.forces();
+    let coupled = |mode: usize, velocity: &[f64]| {
+        let coupling = problem.system.coupling();
+        coupling.map_or(0.0, |coupling| coupling.product(mode, velocity))
+    };
+    let acceleration = |i: usize| {
+        let (q, v) = (problem.displacement[i], problem.velocity[i]);
+        forces[i] - damping[i] * v - omega2[i] * q - coupled(i, &problem.velocity)
+    };
+    let accelerations: Vec<f64> = match problem.system.coupling() {
+        Some(_) => (0..omega2.len()).map(acceleration).collect(),
+        None => Vec::new(),
+    };
     let mut motion = [[0.0; COORDINATES]; 4];
     let mut sizes = [0.0; 4];
     for (coordinate, row) in law.rows().iter().enumerate() {
         for i in 0..omega2.len() {
             let (q, v) = (problem.displacement[i], problem.velocity[i]);
-            let a = forces[i] - damping[i] * v - omega2[i] * q;
-            let derivatives = [q, v, a, -damping[i] * a - omega2[i] * v];
+            let a = acceleration(i);
+            let jerk = -damping[i] * a - omega2[i] * v - coupled(i, &accelerations);
+            let derivatives = [q, v, a, jerk];
             for (order, derivative) in derivatives.iter().enumerate() {
                 let term = row[i] * derivative;
                 motion[order][coordinate] += term;

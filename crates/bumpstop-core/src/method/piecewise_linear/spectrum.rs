@@ -112,13 +112,13 @@ impl Spectrum {
         let mut spectrum = room.cleared();
         spectrum.states.extend_from_slice(states);
         Acting::list(problem, states, &mut bench.acting);
-        match bench.acting.as_slice() {
-            [] => {}
-            [one] => {
+        match (bench.acting.as_slice(), problem.system.coupling()) {
+            ([], None) => {}
+            ([one], None) => {
                 let one = *one;
                 spectrum.couple_by_one::<I, L>(problem, &one, secular, bench)?;
             }
-            several => dense::couple(&mut spectrum, problem, several)?,
+            (acting, _) => dense::couple(&mut spectrum, problem, acting)?,
         }
         spectrum.add_singles(problem, bench);
         spectrum.lay_out_exponents();

@@ -1,0 +1,181 @@
+"""Modes that dampers and gyroscopic forces couple, against the physical equations of motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.linalg import expm
+from scipy.optimize import brentq
+
+import bumpstop as bs
+
+Array = NDArray[np.float64]
+
+STIFFNESS = np.array([[5e4, -2e4, 0.0], [-2e4, 4e4, -2e4], [0.0, -2e4, 2e4]])
+MASS = np.diag([2.0, 1.0, 3.0])
+DOFS = [(node, "dx") for node in "PQR"]
+DAMPER = np.array([[4.0, -4.0, 0.0], [-4.0, 4.0, 0.0], [0.0, 0.0, 30.0]])
+SKEW = np.array([[0.0, 60.0, 0.0], [-60.0, 0.0, 25.0], [0.0, -25.0, 0.0]])
+VELOCITY = np.array([0.4, -0.3, 0.8])
+DURATION = 0.5
+STOP_STIFFNESS = 2e5
+GAP = 2e-3
+
+
+def basis(
+    *, damping: Array | None = None, skew: Array | None = None, circulatory: Array | None = None
+) -> bs.ModalBasis:
+    model = bs.Matrices(
+        stiffness=STIFFNESS,
+        mass=MASS,
+        damping=damping,
+        gyroscopic=skew,
+        circulatory=circulatory,
+        dofs=DOFS,
+    )
+    return bs.ModalBasis.from_structure(model, modes="all")
+
+
+def problem(
+    of: bs.ModalBasis, *, laws: list[bs.Stop] | None = None, force: float = 0.0
+) -> bs.Problem:
+    modal_velocity = of.project_field(VELOCITY)
+    loads = [bs.NodalForce("pull", node="R", force=(force, 0.0, 0.0))] if force else []
+    return bs.Problem(
+        of,
+        laws=laws or [],
+        loads=loads,
+        initial=bs.ModalState(velocity=modal_velocity.tolist()),
+        duration=DURATION,
+    )
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The physical equations as ``z' = A z + b``, z = (u, u')."""
+
+    matrix: Array
+    load: Array
+
+    def after(self, start: Array, time: float) -> Array:
+        rest = np.linalg.solve(self.matrix, -self.load)
+        after: Array = rest + expm(self.matrix * time) @ (start - rest)
+        return after
+
+
+def motion(velocity_matrix: Array, stop: float = 0.0, force: float = 0.0) -> Motion:
+    stiffness = STIFFNESS.copy()
+    load = np.array([0.0, 0.0, force])
+    stiffness[2, 2] += stop
+    load[2] -= stop * GAP  # the stop pushes by -k (u + gap) along +x
+    zero, one = np.zeros((3, 3)), np.eye(3)
+    inverse = np.linalg.inv(MASS)
+    matrix = np.block([[zero, one], [-inverse @ stiffness, -inverse @ velocity_matrix]])
+    return Motion(matrix, np.concatenate([np.zeros(3), inverse @ load]))
+
+
+def with_stop(flight: Motion, contact: Motion) -> Callable[[float], Array]:
+    """Return the motion against the stop, its events found by scanning and bisection."""
+    state = np.concatenate([np.zeros(3), VELOCITY])
+    pieces, begun = [(0.0, state, flight)], 0.0
+    step = 2e-4
+    while begun < DURATION:
+        _, state, present = pieces[-1]
+
+        def distance(time: float, state: Array = state, present: Motion = present) -> float:
+            return float(present.after(state, time)[2] + GAP)
+
+        times = np.arange(step, DURATION - begun + step, step)
+        signs = np.array([distance(time) > 0 for time in times])
+        changed = np.flatnonzero(signs != (present is flight))
+        if not len(changed):
+            break
+        end = times[changed[0]]
+        found = brentq(distance, end - step if changed[0] else 0.5 * step, end, xtol=1e-16)
+        begun += found
+        pieces.append(
+            (begun, present.after(state, found), contact if present is flight else flight)
+        )
+
+    def at(time: float) -> Array:
+        start, state, present = next(piece for piece in reversed(pieces) if piece[0] <= time)
+        after: Array = present.after(state, time - start)
+        return after
+
+    return at
+
+
+@pytest.mark.parametrize("velocity_matrix", [DAMPER, SKEW, DAMPER + SKEW], ids=["C", "G", "C+G"])
+def test_free_vibration_is_that_of_the_matrices(velocity_matrix: Array) -> None:
+    symmetric = 0.5 * (velocity_matrix + velocity_matrix.T)
+    of = basis(damping=symmetric, skew=velocity_matrix - symmetric)
+    assert of.couples
+    response = bs.simulate(problem(of, force=100.0))
+    exact = motion(velocity_matrix, force=100.0)
+    start = np.concatenate([np.zeros(3), VELOCITY])
+    times = np.linspace(0.0, DURATION, 41)
+    wanted = np.array([exact.after(start, time) for time in times])
+    sampled = response.at(times)
+    for column, (node, dof) in enumerate(DOFS):
+        found = sampled.displacement(node, dof)
+        np.testing.assert_allclose(found, wanted[:, column], atol=1e-12 * np.abs(wanted).max())
+        speed = sampled.velocity(node, dof)
+        np.testing.assert_allclose(speed, wanted[:, 3 + column], rtol=0, atol=1e-11)
+        push = sampled.acceleration(node, dof)
+        rate = wanted @ exact.matrix.T + exact.load
+        np.testing.assert_allclose(push, rate[:, 3 + column], rtol=0, atol=1e-9)
+    assert response.energy_residual < 1e-12
+
+
+def test_contact_of_coupled_modes() -> None:
+    of = basis(damping=DAMPER, skew=SKEW)
+    stop = bs.Stop("wall", node="R", normal=(1, 0, 0), gap=GAP, stiffness=STOP_STIFFNESS)
+    response = bs.simulate(problem(of, laws=[stop]))
+    exact = with_stop(motion(DAMPER + SKEW), motion(DAMPER + SKEW, stop=STOP_STIFFNESS))
+    times = np.linspace(0.0, DURATION, 101)
+    wanted = np.array([exact(time)[2] for time in times])
+    found = response.at(times).displacement("R", "dx")
+    assert len(response.impact_table()["start"]) >= 3
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * np.abs(wanted).max())
+    assert response.energy_residual < 1e-11
+
+
+def test_skew_forces_alone_dissipate_nothing() -> None:
+    response = bs.simulate(problem(basis(skew=SKEW)))
+    energy = response.energy
+    assert float(np.abs(energy["dissipated_damping"]).max()) < 1e-13 * float(
+        energy["kinetic"].max()
+    )
+
+
+def test_free_rotor_turns_on_its_own_circle() -> None:
+    """A free mass under a gyroscopic force alone: u'' = w x u' is a circle."""
+    free = bs.Matrices(
+        stiffness=np.zeros((2, 2)),
+        mass=np.eye(2),
+        gyroscopic=np.array([[0.0, 3.0], [-3.0, 0.0]]),
+        dofs=[("P", "dx"), ("P", "dy")],
+    )
+    of = bs.ModalBasis.from_structure(free, modes="all")
+    state = bs.ModalState(velocity=of.project_field(np.array([1.0, 0.0])).tolist())
+    response = bs.simulate(bs.Problem(of, initial=state, duration=2.0))
+    times = np.linspace(0.0, 2.0, 21)
+    np.testing.assert_allclose(
+        response.at(times).displacement("P", "dx"), np.sin(3 * times) / 3, atol=1e-12
+    )
+    pulled = bs.Problem(
+        of, loads=[bs.NodalForce("f", node="P", force=(1, 0, 0))], initial=state, duration=2.0
+    )
+    with pytest.raises(bs.ComputationError, match="drifts for ever"):
+        bs.simulate(pulled)
+
+
+def test_fixed_steps_and_circulatory_forces_are_refused() -> None:
+    with pytest.raises(bs.InputError, match="method: does not take modes that damping"):
+        bs.simulate(problem(basis(damping=DAMPER)), method="central_difference", dt=1e-5)
+    with pytest.raises(bs.InputError, match="circulatory forces couple the modes"):
+        bs.simulate(problem(basis(circulatory=SKEW)))
