@@ -8,6 +8,7 @@ from bumpstop.structure.dofs import DOFS
 
 __all__ = [
     "ENERGIES",
+    "FREQUENCY",
     "IMPACTS",
     "QUANTITIES",
     "STOP_ENERGIES",
@@ -47,6 +48,9 @@ QUANTITIES = {
     "gauge": Quantity("1", "axial strain", ("gauge",)),
 }
 """Quantities that are functions of time."""
+
+FREQUENCY = Quantity("Hz", "natural frequency")
+"""A property of each mode."""
 
 ENERGIES = {
     "kinetic": Quantity("J", "kinetic energy"),

@@ -81,7 +81,7 @@ def test_modes_that_damping_and_spin_couple(
     )
     basis = bs.ModalBasis.from_structure(model, modes=4, damping=0.01)
     problem = bs.Problem(basis, duration=1.0)
-    case = replace(load_case(SDNL32), problems={"base": problem})
+    case = replace(load_case(SDNL32), bases={"base": basis}, problems={"base": problem})
     monkeypatch.setattr("bumpstop.cli.modes.load_case", lambda _path: case)
     assert main(["modes", "rotor.toml"]) == 0
     lines = capsys.readouterr().out.splitlines()
@@ -191,7 +191,7 @@ def test_schema(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["schema"]) == 0
     schema = json.loads(capsys.readouterr().out)
     assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
-    assert schema["required"] == ["basis", "run"]
+    assert schema["required"] == ["basis"]
     stop = schema["$defs"]["StopTable"]
     assert stop["required"] == ["node", "normal", "stiffness"]
     assert stop["properties"]["stiffness"]["description"] == "Contact stiffness, in N/m"
@@ -199,3 +199,80 @@ def test_schema(capsys: pytest.CaptureFixture[str]) -> None:
         assert table["additionalProperties"] is False
         for key, field in table["properties"].items():
             assert "description" in field or "$ref" in field, key
+
+
+FRAME = CASES / "nafems-fv3" / "case.toml"
+
+
+def test_a_modal_case_runs_nothing(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main(["run", str(FRAME), "--json", "--out", str(tmp_path)]) == 0
+    (variant,) = json.loads(capsys.readouterr().out)["variants"]
+    assert (variant["method"], variant["steps"], variant["events"]) == (None, 0, 0)
+    assert (variant["impacts"], variant["energy_residual"]) == (0, None)
+    row = variant["references"][3]
+    assert (row["quantity"], row["mode"], row["time"]) == ("frequency", 4, None)
+    assert row["value"] == pytest.approx(row["reference"], rel=row["tolerance"])
+    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
+
+
+def test_a_modal_case_in_words(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(FRAME)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[3] == "  Natural frequencies, in Hz"
+    assert lines[4].split() == ["mode", "published", "computed", "deviation", "tolerance", "ok"]
+    assert lines[-1] == "  all 11 checks passed"
+    assert main(["verify", "nafems-fv3", "--cases", str(CASES)]) == 0
+    assert " modes " in capsys.readouterr().out.splitlines()[1]
+
+
+def test_a_frequency_that_is_missed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(FRAME.read_text().replace("3.261", "3.271"))
+    assert main(["run", str(file)]) == 1
+    assert "1 of 11 checks FAILED" in capsys.readouterr().out
+
+
+def test_modes_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["modes", str(SDNL32), "--out", str(tmp_path / "out")]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == f"written to {tmp_path}/out/modes.html"
+    page = (tmp_path / "out" / "modes.html").read_text()
+    assert "rotation about z through A" in page
+    assert "none missed" in page
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "modes = [1, 2, 3]",
+            "modes = [1, 2]",
+            "references.0.modes: must be as many as there are values, 3",
+        ),
+        ("modes = [1, 2, 3]", "modes = [1, 2, 12]", "references.0.modes.2: must be at most 11"),
+        ("modes = [1, 2, 3]", "times = [1, 2, 3]", "references.0.modes: is needed for frequency"),
+        (
+            'quantity = "frequency"\nmodes = [1, 2, 3]',
+            'quantity = "displacement"\nnode = "A"\ndof = "dx"\ntimes = [1, 2, 3]',
+            "references.0.quantity: is never computed (got 'displacement'); without [run]",
+        ),
+        (
+            "[basis] ",
+            '[loads.weight]\ntype = "gravity"\nacceleration = [0, -9.81, 0]\n[basis] ',
+            "run: is missing, and there are loads; say how long to simulate",
+        ),
+        (
+            "[basis] ",
+            '[variants.long]\n"run" = { duration = 1.0 }\n[basis] ',
+            'variants.long."run": is given in a variant alone; give [run] in the case itself',
+        ),
+    ],
+)
+def test_mistakes_in_modal_cases(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, message: str
+) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(FRAME.read_text().replace(old, new, 1))
+    assert main(["run", str(file)]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert message in error

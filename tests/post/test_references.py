@@ -5,7 +5,13 @@ import numpy as np
 import pytest
 
 import bumpstop as bs
-from bumpstop.post.references import REFERENCE_QUANTITIES, Check, Reference, check_references
+from bumpstop.post.references import (
+    REFERENCE_QUANTITIES,
+    Check,
+    Reference,
+    check_frequencies,
+    check_references,
+)
 from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES
 
 SPEED, STIFFNESS = 0.5, 1e4
@@ -199,3 +205,41 @@ def test_published_values_may_come_as_an_array(response: bs.Response) -> None:
         quantity="gap", stop="wall", times=times, values=0.01 - SPEED * times, tolerance=1e-9
     )
     assert all(check.passed for check in check_references(response, [reference]))
+
+
+def test_frequencies_are_those_of_the_numbered_modes() -> None:
+    basis = bs.ModalBasis.from_modes(
+        frequency=[0.0, 3.0, 7.0], shapes={("P", "dx"): [1.0, 1.0, 1.0]}
+    )
+    both = Reference(quantity="frequency", modes=[3, 2], values=[7.07, 3.0], tolerance=0.009)
+    rigid = Reference(quantity="frequency", mode=1, values=[0.0], absolute_tolerance=1e-12)
+    checks = check_frequencies(basis, [both, rigid])
+    assert [check.mode for check in checks] == [3, 2, 1]
+    assert [check.passed for check in checks] == [False, True, True]
+    assert checks[0].deviation == pytest.approx(0.07 / 7.07)
+    assert checks[2].units == "Hz"
+    assert all(math.isnan(check.time) and not check.missing for check in checks)
+
+
+def test_frequencies_are_checked_beside_what_runs(response: bs.Response) -> None:
+    check = only(response, quantity="frequency", mode=1, values=[1.0])
+    assert (check.value, check.passed) == (0.0, False)
+
+
+def test_mistakes_in_frequencies(response: bs.Response) -> None:
+    given: dict[str, Any] = {"quantity": "frequency", "values": [1.0], "tolerance": 0.1}
+    for fields, message in (
+        ({}, "modes: is needed for frequency"),
+        ({"mode": 1, "modes": [1]}, "modes: give either mode or modes"),
+        ({"modes": [1, 2]}, "modes: must be as many as there are values, 1"),
+        ({"modes": [0]}, "modes: must be 1 or more"),
+        ({"modes": [1], "times": [0.0]}, "times: frequencies have no times"),
+        ({"modes": [1], "node": "P"}, "node: does not belong to frequency"),
+    ):
+        with pytest.raises(bs.InputError, match=message):
+            Reference(**(given | fields))
+    with pytest.raises(bs.InputError, match="modes: must be at most 1"):
+        only(response, quantity="frequency", mode=2, values=[1.0])
+    displacement = Reference(quantity="gap", stop="wall", times=[0.0], values=[1.0], tolerance=0.1)
+    with pytest.raises(bs.InputError, match="quantity: is not a frequency"):
+        check_frequencies(response.problem.basis, [displacement])

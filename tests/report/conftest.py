@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
 
 import bumpstop as bs
 from bumpstop.post.references import Check, Reference, check_references
-from bumpstop.report import write_report
+from bumpstop.report import write_modes, write_report
 
 CASES = Path(__file__).parents[2] / "cases"
 
@@ -48,6 +48,7 @@ def made_case(
         title=title,
         description="",
         path=Path("made/case.toml"),
+        bases={name: problem.basis for name, problem in problems.items()},
         problems=problems,
         references=references or {},
         methods={},
@@ -79,6 +80,41 @@ def sdnl32_page(sdnl32: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def ball_page(ball: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return ball.write(tmp_path_factory.mktemp("ball") / "report.html")
+
+
+@pytest.fixture(scope="session")
+def portal() -> bs.ModalBasis:
+    """A portal frame in space, clamped at its four feet, with a mass on one corner."""
+    corners = [(0, 0), (4, 0), (4, 3), (0, 3)]
+    steel = bs.Material(young_modulus=210e9, poisson_ratio=0.3, density=7800.0)
+    bar = bs.Tube(outer_radius=0.06, thickness=0.005)
+    pairs = [(f"foot{i}", f"top{i}") for i in range(4)]
+    pairs += [(f"top{i}", f"top{(i + 1) % 4}") for i in range(4)]
+    structure = bs.Structure(
+        nodes={f"foot{i}": (x, y, 0) for i, (x, y) in enumerate(corners)}
+        | {f"top{i}": (x, y, 3) for i, (x, y) in enumerate(corners)},
+        beams=[
+            bs.Beam(f"{a}-{b}", nodes=(a, b), elements=4, material=steel, section=bar)
+            for a, b in pairs
+        ],
+        masses=[bs.PointMass("crane", node="top2", mass=300.0)],
+        supports=[
+            bs.Support(
+                nodes=[f"foot{i}" for i in range(4)],
+                fixed=("dx", "dy", "dz", "drx", "dry", "drz"),
+            )
+        ],
+    )
+    return bs.ModalBasis.from_structure(structure, modes=6)
+
+
+@pytest.fixture(scope="session")
+def portal_page(portal: bs.ModalBasis, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of its modes."""
+    path = tmp_path_factory.mktemp("portal") / "modes.html"
+    case = replace(made_case({}, title="A portal frame in space"), bases={"base": portal})
+    write_modes(case, {}, path)
+    return path
 
 
 @pytest.fixture(scope="session")

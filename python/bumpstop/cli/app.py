@@ -142,12 +142,13 @@ def _run(parser: ArgumentParser) -> Callable[[Namespace], int]:
 def _modes(parser: ArgumentParser) -> Callable[[Namespace], int]:
     """Print the natural frequencies of a case."""
     _takes_case(parser)
+    _takes_folder(parser, None, "Write DIR/modes.html, which draws the modes.")
     _takes_json(parser)
 
     def work(given: Namespace) -> int:
         from bumpstop.cli.modes import modes_command
 
-        return modes_command(given.case, json=given.json)
+        return modes_command(given.case, json=given.json, out=given.out)
 
     return work
 

@@ -14,6 +14,7 @@ from bumpstop.modal.basis import ModalBasis, mode_labels
 from bumpstop.modal.masses import generalised_mass, participation
 from bumpstop.modal.oscillation import ComplexModes, complex_modes
 from bumpstop.modal.spin import angular_momentum
+from bumpstop.report.remarks import remarks, rigid_modes_told
 
 __all__ = ["modes_command"]
 
@@ -21,14 +22,20 @@ PLANAR = 0.005
 """A motion that turns less than this swings to and fro."""
 
 
-def modes_command(path: Path, *, json: bool) -> int:
+def modes_command(path: Path, *, json: bool, out: Path | None) -> int:
     """Print the modes of each basis of a case, and what is to be said of them; return the status.
 
     Variants that change nothing of the structure share a basis. The JSON object has the
-    first variant's on top, and each variant's under its name.
+    first variant's on top, and each variant's under its name. In the folder `out`, where one
+    is given, a page draws the modes.
     """
     case = load_case(path)
-    bases = {name: problem.basis for name, problem in case.problems.items()}
+    if out is not None:
+        from bumpstop.cli.outputs import check_writable, write_modes_page
+
+        check_writable(out)
+        write_modes_page(case, out)
+    bases = case.bases
     if json:
         records = {name: _record(basis) for name, basis in bases.items()}
         first = next(iter(records.values()))
@@ -42,25 +49,12 @@ def modes_command(path: Path, *, json: bool) -> int:
         if basis.couples:
             print_line("  with the damping and the gyroscopic forces that couple these modes:")
             print_table(_complex_table(basis))
-        rigid = [_rigid_modes(basis.rigid_modes)] if basis.rigid_modes else []
-        for remark in [*rigid, *_remarks(basis)]:
+        for remark in [*rigid_modes_told(basis), *remarks(basis)]:
             print_line(f"  {remark}")
+    if out is not None:
+        print_line()
+        print_line(f"written to {out / 'modes.html'}")
     return 0
-
-
-def _remarks(basis: ModalBasis) -> list[str]:
-    proof = [] if basis.sturm is None else [str(basis.sturm)]
-    return [*proof, *basis.remarks]
-
-
-def _rigid_modes(motions: Sequence[str]) -> str:
-    """Return a line that names the motions which strain nothing.
-
-    >>> _rigid_modes(["rotation about z through A"])
-    '1 rigid mode: rotation about z through A'
-    """
-    number = "1 rigid mode" if len(motions) == 1 else f"{len(motions)} rigid modes"
-    return f"{number}: {'; '.join(motions)}"
 
 
 def _record(basis: ModalBasis) -> dict[str, Any]:
@@ -70,7 +64,7 @@ def _record(basis: ModalBasis) -> dict[str, Any]:
         "rigid_modes": list(basis.rigid_modes),
         "labels": list(basis.canonical_labels),
         "generalised_mass": generalised_mass(basis).tolist(),
-        "remarks": _remarks(basis),
+        "remarks": remarks(basis),
         "sturm": None if basis.sturm is None else str(basis.sturm),
     }
     if basis.has_masses:

@@ -8,11 +8,12 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from bumpstop.cli.solve import CaseResult
+from bumpstop.cli.solve import CaseResult, frequency_checks
 from bumpstop.errors import InputError
 from bumpstop.files import remove_leftovers, temporary_name
+from bumpstop.io.case import Case
 
-__all__ = ["check_writable", "write_outputs", "write_report_alone"]
+__all__ = ["check_writable", "write_modes_page", "write_outputs", "write_report_alone"]
 
 
 def check_writable(folder: Path) -> None:
@@ -31,7 +32,7 @@ def check_writable(folder: Path) -> None:
 
 
 def write_outputs(result: CaseResult, folder: Path, *, report: bool) -> None:
-    """Write ``<variant>/response.nc`` of each variant, and ``report.html``.
+    """Write ``<variant>/response.nc`` of each variant that ran, and ``report.html``.
 
     Raises
     ------
@@ -39,13 +40,13 @@ def write_outputs(result: CaseResult, folder: Path, *, report: bool) -> None:
         If something cannot be written; then nothing is left behind.
     """
     with _all_or_nothing(folder) as staging:
-        for variant in result.variants:
-            (staging / variant.name).mkdir()
-            variant.response.to_netcdf(
-                staging / variant.name / "response.nc",
+        for name, response in result.responses.items():
+            (staging / name).mkdir()
+            response.to_netcdf(
+                staging / name / "response.nc",
                 title=result.case.title,
                 case=result.case.name,
-                variant=variant.name,
+                variant=name,
             )
         if report:
             _write_report(result, staging)
@@ -63,12 +64,29 @@ def write_report_alone(result: CaseResult, folder: Path) -> None:
         _write_report(result, staging)
 
 
-def _write_report(result: CaseResult, folder: Path) -> None:
-    from bumpstop.report.html import write_report
+def write_modes_page(case: Case, folder: Path) -> None:
+    """Write ``modes.html``.
 
-    responses = {variant.name: variant.response for variant in result.variants}
+    Raises
+    ------
+    InputError
+        If it cannot be written; then nothing is left behind.
+    """
+    from bumpstop.report.html import write_modes
+
+    checks = {name: frequency_checks(case, name) for name in case.bases}
+    with _all_or_nothing(folder) as staging:
+        write_modes(case, checks, staging / "modes.html")
+
+
+def _write_report(result: CaseResult, folder: Path) -> None:
+    from bumpstop.report.html import write_modes, write_report
+
     checks = {variant.name: variant.checks for variant in result.variants}
-    write_report(result.case, responses, checks, folder / "report.html")
+    if result.responses:
+        write_report(result.case, result.responses, checks, folder / "report.html")
+    else:
+        write_modes(result.case, checks, folder / "report.html")
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from typing import Any
 
 from bumpstop.cli.solve import CaseResult, VariantResult
 from bumpstop.post.references import Check
+from bumpstop.response import Response
 
 __all__ = ["case_record"]
 
@@ -20,9 +21,31 @@ def case_record(result: CaseResult) -> dict[str, Any]:
 
 
 def _variant_record(variant: VariantResult) -> dict[str, Any]:
-    response = variant.response
     record = {
         "name": variant.name,
+        **(_NOTHING_RUN if variant.response is None else _run_record(variant.response)),
+        "references": [_check_record(check) for check in variant.checks],
+        "passed": variant.passed,
+    }
+    # Last, since everything read before it is a part of the core's time.
+    seconds = 0.0 if variant.response is None else variant.response.solve_seconds
+    return record | {"solve_seconds": seconds}
+
+
+_NOTHING_RUN: dict[str, Any] = {
+    "method": None,
+    "steps": 0,
+    "certified_steps": None,
+    "missed_penetration": None,
+    "events": 0,
+    "impacts": 0,
+    "energy_residual": None,
+}
+"""What a modal case has in place of a run."""
+
+
+def _run_record(response: Response) -> dict[str, Any]:
+    return {
         "method": response.method,
         "steps": response.steps,
         "certified_steps": response.certified_steps,
@@ -30,16 +53,14 @@ def _variant_record(variant: VariantResult) -> dict[str, Any]:
         "events": response.event_count,
         "impacts": len(response.impact_table()["start"]),
         "energy_residual": response.energy_residual,
-        "references": [_check_record(check) for check in variant.checks],
-        "passed": variant.passed,
     }
-    # Last, since everything read before it is a part of the core's time.
-    return record | {"solve_seconds": response.solve_seconds}
 
 
 def _check_record(check: Check) -> dict[str, Any]:
+    mode = {} if check.mode is None else {"mode": check.mode}
     return {
         "quantity": check.quantity,
+        **mode,
         "time": check.time,
         "value": check.value,
         "reference": check.reference,

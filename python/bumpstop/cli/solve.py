@@ -1,4 +1,4 @@
-"""Simulating the variants of a case and checking them."""
+"""Simulating the variants of a case, where they run, and checking them."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from bumpstop.arguments import did_you_mean
 from bumpstop.errors import ComputationError, InputError
 from bumpstop.io.case import Case
 from bumpstop.io.case.case import MethodOptions
-from bumpstop.post.references import Check, check_references
+from bumpstop.post.references import Check, check_frequencies, check_references
 from bumpstop.response import Response
 from bumpstop.simulate import FIXED_STEP_METHODS, METHODS, simulate
 
-__all__ = ["CaseResult", "Progress", "VariantResult", "solve_case"]
+__all__ = ["CaseResult", "Progress", "VariantResult", "frequency_checks", "solve_case"]
 
 Progress: TypeAlias = Callable[[str], AbstractContextManager[Callable[[float], None] | None]]
 """Opens a progress display under a name and gives what to call with the fraction done."""
 
 
 class VariantResult(NamedTuple):
-    """One variant, simulated and checked."""
+    """One variant, simulated and checked; a modal case has no response."""
 
     name: str
-    response: Response
+    response: Response | None
     checks: list[Check]
 
     @property
@@ -36,7 +36,7 @@ class VariantResult(NamedTuple):
 
 
 class CaseResult(NamedTuple):
-    """All variants of a case, simulated and checked."""
+    """All variants of a case, checked."""
 
     case: Case
     variants: list[VariantResult]
@@ -46,9 +46,14 @@ class CaseResult(NamedTuple):
         """Whether every check of every variant passed."""
         return all(variant.passed for variant in self.variants)
 
+    @property
+    def responses(self) -> dict[str, Response]:
+        """The response of each variant that ran."""
+        return {name: response for name, response, _ in self.variants if response is not None}
+
 
 def solve_case(case: Case, method: str | None, progress: Progress) -> CaseResult:
-    """Simulate every variant and compare it with its references.
+    """Simulate every variant that runs, and compare all with their references.
 
     Parameters
     ----------
@@ -69,10 +74,12 @@ def solve_case(case: Case, method: str | None, progress: Progress) -> CaseResult
     if method is not None and method not in METHODS:
         hint = did_you_mean(method, METHODS)
         raise InputError("unknown method", key="--method", value=method, hint=hint)
-    return CaseResult(case, [_solved(case, name, method, progress) for name in case.problems])
+    return CaseResult(case, [_solved(case, name, method, progress) for name in case.bases])
 
 
 def _solved(case: Case, name: str, method: str | None, progress: Progress) -> VariantResult:
+    if name not in case.problems:
+        return VariantResult(name, None, frequency_checks(case, name))
     own_method, options = case.methods[name]
     chosen = method or own_method
     used = options if chosen in FIXED_STEP_METHODS else MethodOptions()
@@ -80,6 +87,12 @@ def _solved(case: Case, name: str, method: str | None, progress: Progress) -> Va
         response = simulate(case.problems[name], chosen, progress=tell, **used)
         checks = check_references(response, case.references[name])
     return VariantResult(name, response, checks)
+
+
+def frequency_checks(case: Case, variant: str) -> list[Check]:
+    """Compare the natural frequencies of a variant with those among its references."""
+    known = [each for each in case.references[variant] if each.modes is not None]
+    return check_frequencies(case.bases[variant], known)
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from bumpstop.cli.console import Table, print_line, print_table
 from bumpstop.cli.solve import CaseResult, VariantResult
 from bumpstop.post.references import Check
 from bumpstop.report.words import title_of
+from bumpstop.response import Response
 
 __all__ = ["print_summary", "verdict"]
 
@@ -35,9 +36,8 @@ def print_summary(result: CaseResult, record: dict[str, Any], out: Path | None) 
         for caption, table in _tables(variant):
             print_line(f"  {caption}")
             print_table(table)
-        print_line(f"  {_how(numbers)}")
-        if variant.response.problem.laws and numbers["certified_steps"] is not None:
-            print_line(f"  {_certificate(numbers)}")
+        for line in _told(variant.response, numbers):
+            print_line(f"  {line}")
         print_line(f"  {verdict(variant.checks)}", style="green" if variant.passed else "bold red")
     if out is not None:
         print_line()
@@ -52,6 +52,15 @@ def verdict(checks: list[Check]) -> str:
     if passed == len(checks):
         return f"all {passed} checks passed" if passed > 1 else "the check passed"
     return f"{len(checks) - passed} of {len(checks)} checks FAILED"
+
+
+def _told(response: Response | None, numbers: dict[str, Any]) -> Iterator[str]:
+    """Yield what is to be said of a run."""
+    if response is None:
+        return
+    yield _how(numbers)
+    if response.problem.laws and numbers["certified_steps"] is not None:
+        yield _certificate(numbers)
 
 
 def _how(numbers: dict[str, Any]) -> str:
@@ -90,7 +99,14 @@ def _tables(variant: VariantResult) -> Iterator[tuple[str, Table]]:
 
 def _table(checks: list[Check]) -> Table:
     return Table(
-        headers=("time [s]", "published", "computed", "deviation", "tolerance", "ok"),
+        headers=(
+            "time [s]" if checks[0].mode is None else "mode",
+            "published",
+            "computed",
+            "deviation",
+            "tolerance",
+            "ok",
+        ),
         rows=[_row(check) for check in checks],
         good=[check.passed for check in checks],
     )
@@ -98,7 +114,7 @@ def _table(checks: list[Check]) -> Table:
 
 def _row(check: Check) -> tuple[str, ...]:
     return (
-        _number(check.time),
+        _number(check.time) if check.mode is None else str(check.mode),
         _number(check.reference),
         check.missing or _number(check.value),
         _deviation(check.deviation, check.absolute),

@@ -60,7 +60,7 @@ def _row(result: CaseResult, variant: VariantResult) -> tuple[str, ...]:
     return (
         result.case.name,
         variant.name,
-        variant.response.method,
+        "modes" if variant.response is None else variant.response.method,
         "" if worst is None else f"{100 * worst:.0f} %",
         verdict(variant.checks),
     )

@@ -1,24 +1,31 @@
-"""Published values, and how far a response is from them."""
+"""Published values, and how far a response or its modes are from them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray, count, not_negative, one_of, series
 from bumpstop.errors import InputError
-from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, dof_units
+from bumpstop.quantities import ENERGIES, FREQUENCY, IMPACTS, QUANTITIES, dof_units
 
 if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
     from bumpstop.response import Response
 
-__all__ = ["REFERENCE_QUANTITIES", "Check", "Reference", "check_references"]
+__all__ = [
+    "REFERENCE_QUANTITIES",
+    "Check",
+    "Reference",
+    "check_frequencies",
+    "check_references",
+]
 
-TARGETS = ("node", "dof", "mode", "stop", "gauge", "term", "impact")
+TARGETS = ("node", "dof", "mode", "modes", "stop", "gauge", "term", "impact")
 
 IMPACT_COLUMNS = {
     "impact_start": "start",
@@ -36,6 +43,7 @@ IMPACT_COLUMNS = {
 REFERENCE_QUANTITIES: dict[str, tuple[str, ...]] = {
     **{quantity: what.target for quantity, what in QUANTITIES.items()},
     "energy": ("term",),
+    "frequency": ("modes",),
     **dict.fromkeys(IMPACT_COLUMNS, ("stop", "impact")),
 }
 """Each quantity that can be compared, and what says of which part it is."""
@@ -51,19 +59,22 @@ class Reference:
         What they are values of: a quantity of time (``displacement``, ``velocity``,
         ``acceleration`` of a ``node`` and ``dof``, ``modal_displacement`` of a ``mode``
         counted from 1, ``stop_force`` and ``gap`` of a ``stop``, ``gauge`` of a ``gauge``,
-        ``energy`` of a ``term`` of the ledger), or one of an ``impact`` of a ``stop``, counted
+        ``energy`` of a ``term`` of the ledger), one of an ``impact`` of a ``stop``, counted
         from 1 (``impact_start``, ``impact_end``, ``impact_duration``, ``closing_speed``,
-        ``opening_speed``, ``peak_force``, ``peak_time``, ``impulse``, ``energy_returned``).
+        ``opening_speed``, ``peak_force``, ``peak_time``, ``impulse``, ``energy_returned``),
+        or the natural ``frequency`` of some ``modes``, without damping and spin, in Hz.
     times
-        Instants in s, one a value; none for a quantity of an impact.
+        Instants in s, one a value; none for a quantity of an impact and for frequencies.
     values
-        The published values in SI units; one for a quantity of an impact.
+        The published values in SI units; one for a quantity of an impact, one a mode for
+        frequencies.
     tolerance
         Largest deviation relative to the size of the value.
     absolute_tolerance
         Largest deviation in the quantity's own unit; give this or `tolerance`.
-    node, dof, mode, stop, gauge, term, impact
-        What it is the quantity of.
+    node, dof, mode, modes, stop, gauge, term, impact
+        What it is the quantity of. Modes count from 1; for a frequency `mode` may stand
+        instead of `modes`.
     source
         Where the values come from.
 
@@ -71,7 +82,7 @@ class Reference:
     ------
     InputError
         If the quantity is unknown, what it needs is missing, or there are not as many times
-        as values.
+        or modes as values.
     """
 
     quantity: str
@@ -82,6 +93,7 @@ class Reference:
     node: str | None = None
     dof: str | None = None
     mode: int | None = None
+    modes: Sequence[int] | None = None
     stop: str | None = None
     gauge: str | None = None
     term: str | None = None
@@ -92,6 +104,8 @@ class Reference:
         one_of("quantity", self.quantity, tuple(REFERENCE_QUANTITIES))
         object.__setattr__(self, "values", series("values", self.values))
         object.__setattr__(self, "times", series("times", self.times) if len(self.times) else ())
+        if self.quantity == "frequency":
+            self._take_modes()
         self._check_target()
         self._check_lengths()
         self._check_tolerances()
@@ -99,6 +113,8 @@ class Reference:
     @property
     def target(self) -> tuple[str, *tuple[str | int, ...]]:
         """The quantity and what it is that of, as `Response.sample` takes them."""
+        if self.quantity == "frequency":
+            return (self.quantity,)
         parts = (getattr(self, key) for key in REFERENCE_QUANTITIES[self.quantity])
         return (self.quantity, *parts)
 
@@ -109,9 +125,21 @@ class Reference:
             return dof_units(self.quantity, self.dof)
         if self.quantity == "energy":
             return ENERGIES[str(self.term)].units
+        if self.quantity == "frequency":
+            return FREQUENCY.units
         if self.impact is not None:
             return IMPACTS[IMPACT_COLUMNS[self.quantity]].units
         return QUANTITIES[self.quantity].units
+
+    def _take_modes(self) -> None:
+        """Take a single mode as a list of one."""
+        if self.mode is not None:
+            if self.modes is not None:
+                raise InputError("give either mode or modes", key="modes", value=self.modes)
+            object.__setattr__(self, "modes", [self.mode])
+            object.__setattr__(self, "mode", None)
+        if self.modes is not None:
+            object.__setattr__(self, "modes", tuple(count("modes", mode) for mode in self.modes))
 
     def _check_target(self) -> None:
         wanted = REFERENCE_QUANTITIES[self.quantity]
@@ -134,9 +162,18 @@ class Reference:
             if self.times or len(self.values) != 1:
                 what = f"{self.quantity} is one value of one impact, without times"
                 raise InputError(what, key="values", value=self.values)
+        elif self.modes is not None:
+            self._check_modes(self.modes)
         elif len(self.times) != len(self.values):
             what = f"must be as many as there are values, {len(self.values)}"
             raise InputError(what, key="times", value=self.times)
+
+    def _check_modes(self, modes: Sequence[int]) -> None:
+        if len(self.times):
+            raise InputError("frequencies have no times", key="times", value=self.times)
+        if len(modes) != len(self.values):
+            what = f"must be as many as there are values, {len(self.values)}"
+            raise InputError(what, key="modes", value=modes)
 
     def _check_tolerances(self) -> None:
         both = ("tolerance", "absolute_tolerance")
@@ -157,7 +194,8 @@ class Check:
     quantity's unit where the tolerance is ``absolute``. ``time`` is in s; for a quantity of an
     impact it is the instant of closing. Where there is no such impact, ``value``,
     ``deviation`` and ``time`` are NaN; where it has not ended yet, ``value`` and ``deviation``
-    may be. A NaN never passes.
+    may be. A NaN never passes. A frequency has the ``mode`` that it is the frequency of,
+    counted from 1, and no time: that is NaN.
     """
 
     quantity: str
@@ -171,6 +209,7 @@ class Check:
     absolute: bool
     passed: bool
     source: str
+    mode: int | None = None
 
     @property
     def missing(self) -> str:
@@ -200,9 +239,36 @@ def check_references(response: Response, references: Iterable[Reference]) -> lis
     """
     checks = []
     for reference in references:
+        if reference.modes is not None:
+            checks += check_frequencies(response.problem.basis, [reference])
+            continue
         times, values = _computed(response, reference)
         for time, value, published in zip(times, values, reference.values, strict=True):
             checks.append(_check(reference, float(time), float(value), published))
+    return checks
+
+
+def check_frequencies(basis: ModalBasis, references: Iterable[Reference]) -> list[Check]:
+    """Compare the natural frequencies of a basis with published ones, one check a value.
+
+    Modes are compared in their order: of a multiple frequency each counts.
+
+    Raises
+    ------
+    InputError
+        If a reference is not of frequencies, or the basis has no such mode.
+    """
+    frequencies = basis.frequencies.tolist()
+    checks = []
+    for reference in references:
+        if reference.modes is None:
+            what = "is not a frequency"
+            raise InputError(what, key="quantity", value=reference.quantity)
+        for mode, published in zip(reference.modes, reference.values, strict=True):
+            if mode > len(frequencies):
+                raise InputError(f"must be at most {len(frequencies)}", key="modes", value=mode)
+            check = _check(reference, math.nan, frequencies[mode - 1], published)
+            checks.append(replace(check, mode=mode))
     return checks
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bumpstop.errors import ComputationError
 from bumpstop.files import written_whole
 from bumpstop.report.encode import script_json
-from bumpstop.report.page import page_content
+from bumpstop.report.page import modes_content, page_content
 from bumpstop.report.palette import style_rules
 
 if TYPE_CHECKING:
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from bumpstop.post.references import Check
     from bumpstop.response import Response
 
-__all__ = ["write_report"]
+__all__ = ["write_modes", "write_report"]
 
 TEMPLATES = Path(__file__).parent / "templates"
-SCRIPTS = ("data", "theme", "plots", "tabs", "svg", "stage", "motion", "modes", "main")
+SCRIPTS = ("data", "theme", "plots", "tabs", "svg", "stage", "motion", "turntable", "modes", "main")
 PLOTLY_MARK = "<!--plotly.js-->"
 
 
@@ -53,12 +53,45 @@ def write_report(
     InputError
         If the file cannot be written there.
     """
+    content, data = page_content(case, responses, checks)
+    page = _page("report.html.j2", content, data)
+    # plotly.js is most of the page: it is copied as bytes and never decoded.
+    before, after = page.split(PLOTLY_MARK)
+    with written_whole(path) as part, part.open("wb") as file:
+        file.writelines([before.encode(), _plotly_script(), after.encode()])
+
+
+def write_modes(
+    case: Case, checks: Mapping[str, Sequence[Check]], path: str | os.PathLike[str]
+) -> None:
+    """Write a page that draws the modes of a case to one HTML file.
+
+    Parameters
+    ----------
+    case
+        Whose modes.
+    checks
+        Computed beside published frequencies of each variant; a variant may have none.
+    path
+        File to write. A file of that name is replaced once the new one is complete.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written there.
+    """
+    content, data = modes_content(case, checks)
+    page = _page("modes.html.j2", content, data)
+    with written_whole(path) as part:
+        part.write_text(page, encoding="utf-8")
+
+
+def _page(template: str, content: dict[str, Any], data: dict[str, Any]) -> str:
     from markupsafe import Markup
 
-    content, data = page_content(case, responses, checks)
-    page = (
+    return (
         _environment()
-        .get_template("report.html.j2")
+        .get_template(template)
         .render(
             content,
             data=Markup(script_json(data)),
@@ -66,10 +99,6 @@ def write_report(
             script=Markup(_script()),
         )
     )
-    # plotly.js is most of the page: it is copied as bytes and never decoded.
-    before, after = page.split(PLOTLY_MARK)
-    with written_whole(path) as part, part.open("wb") as file:
-        file.writelines([before.encode(), _plotly_script(), after.encode()])
 
 
 def _environment() -> Environment:

@@ -51,6 +51,11 @@ class Outline:
     nodes: dict[str, int]
     schematic: bool
 
+    @property
+    def spatial(self) -> bool:
+        """Whether no global plane holds the structure and its motion."""
+        return _plane(self.positions, np.abs(self.shapes).max(axis=(0, 2))) is None
+
 
 def outline(basis: ModalBasis, extra: Iterable[str] = ()) -> Outline:
     """Return the points at which the structure of a basis is drawn.
@@ -86,13 +91,9 @@ def view_of(positions: FloatArray, motion: FloatArray) -> FloatArray:
     array([[1., 0., 0.],
            [0., 1., 0.]])
     """
-    extent = np.ptp(positions, axis=0)
-    interest = np.maximum(_relative(extent), _relative(motion))
-    # A stable sort: of axes that are equally dull, Z leaves first, then X beside Y or Z.
-    order = np.argsort(-interest, kind="stable")
-    if interest[order[2]] < 0.02:
-        right, up = sorted(order[:2])
-        return np.eye(3)[[right, up]]
+    plane = _plane(positions, motion)
+    if plane is not None:
+        return np.eye(3)[list(plane)]
     azimuth, elevation = np.radians(-60.0), np.radians(22.0)
     right_axis = [-np.sin(azimuth), np.cos(azimuth), 0.0]
     up_axis = [
@@ -101,6 +102,17 @@ def view_of(positions: FloatArray, motion: FloatArray) -> FloatArray:
         np.cos(elevation),
     ]
     return np.array([right_axis, up_axis])
+
+
+def _plane(positions: FloatArray, motion: FloatArray) -> tuple[int, int] | None:
+    """Return the two axes of the global plane that holds positions and motion, if one does."""
+    interest = np.maximum(_relative(np.ptp(positions, axis=0)), _relative(motion))
+    # A stable sort: of axes that are equally dull, Z leaves first, then X beside Y or Z.
+    order = np.argsort(-interest, kind="stable")
+    if interest[order[2]] >= 0.02:
+        return None
+    right, up = sorted(order[:2].tolist())
+    return right, up
 
 
 def _side_by_side(basis: ModalBasis) -> Outline:

@@ -10,7 +10,8 @@ from bumpstop import __version__
 from bumpstop.report import tables
 from bumpstop.report.outline import outline
 from bumpstop.report.palette import DARK, LIGHT
-from bumpstop.report.published import verdict
+from bumpstop.report.published import published, verdict
+from bumpstop.report.remarks import remarks, rigid_modes_told
 from bumpstop.report.scene import mode_scene
 from bumpstop.report.variant import Variant
 
@@ -20,10 +21,9 @@ if TYPE_CHECKING:
     from bumpstop.io.case import Case
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.post.references import Check
-    from bumpstop.problem import Problem
     from bumpstop.response import Response
 
-__all__ = ["page_content"]
+__all__ = ["modes_content", "page_content"]
 
 
 def page_content(
@@ -40,18 +40,16 @@ def page_content(
     solve_seconds = {name: response.solve_seconds for name, response in responses.items()}
     problems = {name: response.problem for name, response in responses.items()}
     notes = tables.variant_notes(problems)
-    bases = _shared_bases(problems)
+    bases = _shared_bases(
+        {name: problem.basis for name, problem in problems.items()},
+        {name: [law.node for law in problem.laws] for name, problem in problems.items()},
+    )
     drawings = {name: shared.drawing for shared in bases for name in shared.variants}
     variants = {
         name: Variant(f"variant-{number}", response, case.references.get(name, []), drawings[name])
         for number, (name, response) in enumerate(responses.items(), start=1)
     }
-    content = {
-        "title": case.title,
-        "description": case.description,
-        "case_name": case.name,
-        "version": __version__,
-        "verdict": verdict([check for some in checks.values() for check in some]),
+    content = _head(case, checks) | {
         "facts": tables.facts(responses, checks, solve_seconds),
         "overview": tables.overview(responses, checks, solve_seconds),
         "methods": tables.methods(responses),
@@ -60,47 +58,107 @@ def page_content(
             {"name": name, "note": notes[name], **variant.content(checks.get(name, []))}
             for name, variant in variants.items()
         ],
-        "modes": [
-            {
-                "id": shared.identity,
-                "variants": ", ".join(shared.variants) if len(bases) > 1 else "",
-                "rows": tables.modes(shared.basis),
-            }
-            for shared in bases
-        ],
+        "modes": _viewers(bases),
     }
     data = {
-        "themes": {"light": LIGHT, "dark": DARK},
+        "themes": _THEMES,
         "figures": {key: plot for each in variants.values() for key, plot in each.plots().items()},
         "motions": {f"{each.identity}-motion": each.scene for each in variants.values()},
-        "modes": {each.identity: mode_scene(each.basis, each.drawing) for each in bases},
+        "modes": _scenes(bases),
     }
     return content, data
+
+
+def modes_content(
+    case: Case, checks: Mapping[str, Sequence[Check]]
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the same for the page that shows the modes of a case alone.
+
+    Parameters
+    ----------
+    case, checks
+        As `bumpstop.report.write_modes` takes them.
+    """
+    stops = {
+        name: [law.node for law in case.problems[name].laws] if name in case.problems else []
+        for name in case.bases
+    }
+    bases = _shared_bases(case.bases, stops)
+    checked = [(name, some) for name, some in checks.items() if some]
+    content = _head(case, checks) | {
+        "facts": tables.modal_facts(case.bases, checks),
+        "model": tables.modal_model(case.bases),
+        "modes": _viewers(bases),
+        "checked": [
+            {
+                "id": f"variant-{number}",
+                "name": name if len(case.bases) > 1 else "",
+                "published": published(some),
+                "sources": list(dict.fromkeys(check.source for check in some if check.source)),
+            }
+            for number, (name, some) in enumerate(checked, start=1)
+        ],
+    }
+    return content, {"themes": _THEMES, "figures": {}, "motions": {}, "modes": _scenes(bases)}
+
+
+_THEMES = {"light": LIGHT, "dark": DARK}
+
+
+def _head(case: Case, checks: Mapping[str, Sequence[Check]]) -> dict[str, Any]:
+    return {
+        "title": case.title,
+        "description": case.description,
+        "case_name": case.name,
+        "version": __version__,
+        "verdict": verdict([check for some in checks.values() for check in some]),
+    }
+
+
+def _viewers(bases: Sequence[_SharedBasis]) -> list[dict[str, Any]]:
+    """Return what stands around the drawings of modes."""
+    return [
+        {
+            "id": shared.identity,
+            "variants": ", ".join(shared.variants) if len(bases) > 1 else "",
+            "rows": tables.modes(shared.basis),
+            "remarks": [*rigid_modes_told(shared.basis), *remarks(shared.basis)],
+            "turns": shared.drawing.spatial,
+        }
+        for shared in bases
+    ]
+
+
+def _scenes(bases: Sequence[_SharedBasis]) -> dict[str, Any]:
+    return {each.identity: mode_scene(each.basis, each.drawing) for each in bases}
 
 
 class _SharedBasis:
     """A basis, the variants that have it, and its outline."""
 
-    def __init__(self, identity: str, basis: ModalBasis, problems: Mapping[str, Problem]) -> None:
+    def __init__(
+        self, identity: str, basis: ModalBasis, variants: Sequence[str], stops: Sequence[str]
+    ) -> None:
         self.identity = identity
         self.basis = basis
-        self.variants = list(problems)
-        stops = [law.node for problem in problems.values() for law in problem.laws]
+        self.variants = variants
         self.drawing = outline(basis, stops)
 
 
-def _shared_bases(problems: Mapping[str, Problem]) -> list[_SharedBasis]:
-    """Return the bases that differ; variants with the same modes share one."""
-    groups: list[tuple[ModalBasis, dict[str, Problem]]] = []
-    for name, problem in problems.items():
+def _shared_bases(
+    bases: Mapping[str, ModalBasis], stops: Mapping[str, Sequence[str]]
+) -> list[_SharedBasis]:
+    """Return the bases that differ, with the nodes of the stops; same modes share one."""
+    groups: list[tuple[ModalBasis, list[str]]] = []
+    for name, own in bases.items():
         for basis, users in groups:
-            if _same_modes(basis, problem.basis):
-                users[name] = problem
+            if _same_modes(basis, own):
+                users.append(name)
                 break
         else:
-            groups.append((problem.basis, {name: problem}))
+            groups.append((own, [name]))
     return [
-        _SharedBasis(f"modes-{number}", basis, users)
+        _SharedBasis(f"modes-{number}", basis, users, [node for u in users for node in stops[u]])
         for number, (basis, users) in enumerate(groups, start=1)
     ]
 

@@ -73,22 +73,31 @@ def published(checks: Sequence[Check]) -> list[dict[str, Any]]:
 
 
 def _series(checks: Sequence[Check]) -> dict[str, Any]:
-    clock = scale_for("s", [check.time for check in checks])
+    heading, labels = _labels(checks)
     scale = scale_for(_unit(checks[0]), [check.reference for check in checks])
     return {
         "title": title_of(checks[0].target),
-        "heading": f"Time ({clock.unit})",
+        "heading": heading,
         "unit": scale.unit,
         "rows": [
             _row(
                 check,
-                significant(check.time * clock.factor, 6, zeros=False),
+                label,
                 significant(check.reference * scale.factor, 6, zeros=False),
                 check.missing or scale.show(check.value, 5),
             )
-            for check in checks
+            for label, check in zip(labels, checks, strict=True)
         ],
     }
+
+
+def _labels(checks: Sequence[Check]) -> tuple[str, list[str]]:
+    """Return what tells the values of a series apart: instants, or numbers of modes."""
+    if checks[0].mode is not None:
+        return "Mode", [str(check.mode) for check in checks]
+    clock = scale_for("s", [check.time for check in checks])
+    times = [significant(check.time * clock.factor, 6, zeros=False) for check in checks]
+    return f"Time ({clock.unit})", times
 
 
 def _single_values(checks: Sequence[Check]) -> dict[str, Any]:
@@ -96,7 +105,9 @@ def _single_values(checks: Sequence[Check]) -> dict[str, Any]:
     for check in checks:
         scale = scale_for(_unit(check), check.reference)
         label = title_of(check.target)
-        if check.quantity not in IMPACT_COLUMNS:
+        if check.mode is not None:
+            label = f"Natural frequency of mode {check.mode}"
+        elif check.quantity not in IMPACT_COLUMNS:
             label += f" at {with_unit(check.time, 's', 6)}"
         reference = significant(check.reference * scale.factor, 6, zeros=False)
         value = check.missing or f"{scale.show(check.value, 6)} {scale.unit}"

@@ -77,16 +77,22 @@ def motion_scene(response: Response, watched: tuple[str, str], drawing: Outline)
 
 
 def mode_scene(basis: ModalBasis, drawing: Outline) -> dict[str, Any]:
-    """Return what the page needs to draw each mode of a basis; see `motion_scene`."""
+    """Return what the page needs to draw each mode of a basis; see `motion_scene`.
+
+    A structure in space can be turned: points, shapes and normals have a third component
+    then, towards the reader, and ``vertical`` is the direction of Z in these components.
+    """
     reach = np.abs(drawing.shapes).max(axis=(0, 2))
     view = view_of(drawing.positions, reach)
+    if drawing.spatial:
+        view = np.vstack([view, np.cross(view[0], view[1])])
     drawn = _drawing(drawing, basis, view)
-    planar = drawn["shapes"]
-    largest = np.linalg.norm(planar, axis=1).max(axis=0)
+    shapes = drawn["shapes"]
+    largest = np.linalg.norm(shapes, axis=1).max(axis=0)
     # A mode that the view does not show stays a straight line instead of amplified rounding.
     visible = largest > 1e-9 * max(float(largest.max()), np.finfo(float).tiny)
-    drawn["shapes"] = planar / np.where(visible, largest, np.inf)
-    return drawn
+    drawn["shapes"] = shapes / np.where(visible, largest, np.inf)
+    return drawn | ({"vertical": view[:, 2]} if drawing.spatial else {})
 
 
 def _drawing(drawing: Outline, basis: ModalBasis, view: FloatArray) -> dict[str, Any]:
@@ -132,7 +138,7 @@ def _supports(
         kind = "roller" if moving_axes else "clamp" if clamped else "pin"
         place = drawing.nodes[node]
         # A roller's ground lies across the direction that it holds, a wall across its beam.
-        normal = np.array([0.0, 1.0])
+        normal = np.eye(len(view))[1]
         if kind == "roller":
             normal = view[:, held_axes[0]]
         elif kind == "clamp":
@@ -150,7 +156,7 @@ def _away_from(drawing: Outline, view: FloatArray, place: int) -> FloatArray:
             along = view @ (other - here)
             if np.array_equal(end, here) and np.any(along):
                 return np.asarray(along / np.linalg.norm(along))
-    return np.array([1.0, 0.0])
+    return np.asarray(np.eye(len(view))[0])
 
 
 def _stop(law: Any, drawing: Outline, view: FloatArray, response: Response) -> dict[str, Any]:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.spring import Spring
     from bumpstop.structure.support import Support
 
-__all__ = ["METHODS", "Row", "method_words", "model_rows"]
+__all__ = ["METHODS", "Row", "basis_rows", "method_words", "model_rows"]
 
 Row = tuple[str, list[str]]
 """A term and what there is to say about it, one line each."""
@@ -65,14 +65,19 @@ def method_words(response: Response) -> tuple[str, str]:
 def model_rows(problem: Problem) -> list[Row]:
     """Return the model of a problem, one row a subject, those without content left out."""
     rows = [
-        *_model_parts(problem.basis.model),
-        ("Basis", [_basis(problem.basis)]),
+        *basis_rows(problem.basis),
         ("Stops", [_stop(law) for law in problem.laws]),
         ("Loads", [_load(load) for load in problem.loads]),
         ("Initial state", [_initial(problem.initial)]),
         ("Gauges", [_gauge(gauge) for gauge in problem.gauges]),
         ("Time", [_time(problem)]),
     ]
+    return [(term, lines) for term, lines in rows if lines]
+
+
+def basis_rows(basis: ModalBasis) -> list[Row]:
+    """Return the model of a basis and what was made of it, those rows without content left out."""
+    rows = [*_model_parts(basis.model), ("Basis", [_basis(basis)])]
     return [(term, lines) for term, lines in rows if lines]
 
 

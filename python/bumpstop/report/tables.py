@@ -11,7 +11,7 @@ from bumpstop.modal.basis import COMBINATION
 from bumpstop.quantities import IMPACTS
 from bumpstop.report.published import deviation_told, tolerance_told, verdict, worst
 from bumpstop.report.scales import percent, power_of_ten, scale_for, significant, with_unit
-from bumpstop.report.summary import method_words, model_rows
+from bumpstop.report.summary import Row, basis_rows, method_words, model_rows
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -21,7 +21,17 @@ if TYPE_CHECKING:
     from bumpstop.problem import Problem
     from bumpstop.response import Response
 
-__all__ = ["facts", "impacts", "methods", "model", "modes", "overview", "variant_notes"]
+__all__ = [
+    "facts",
+    "impacts",
+    "methods",
+    "modal_facts",
+    "modal_model",
+    "model",
+    "modes",
+    "overview",
+    "variant_notes",
+]
 
 MOST_IMPACTS = 50
 """Rows of the impact table; the response's file has them all."""
@@ -45,15 +55,7 @@ def facts(
     solve_seconds: Mapping[str, float],
 ) -> list[dict[str, str]]:
     """Return the few numbers at the head of the page: name, value and note of each."""
-    every = [check for some in checks.values() for check in some]
-    told = []
-    furthest = worst(every)
-    if furthest is not None:
-        met = sum(check.passed for check in every)
-        told.append(("Published values met", f"{met} of {len(every)}", ""))
-        deviation = deviation_told(furthest)
-        allowed = f"{tolerance_told(furthest)} allowed"
-        told.append(("Worst against its tolerance", deviation, allowed))
+    told = _checked(checks)
     bounds = [r.missed_penetration for r in responses.values() if r.problem.laws]
     proved = [bound for bound in bounds if bound is not None]
     if proved and len(proved) == len(bounds):
@@ -63,6 +65,42 @@ def facts(
     runs = len(responses)
     seconds = with_unit(sum(solve_seconds.values()), "s", 3)
     told.append(("Solved in", seconds, f"core time, {runs} runs" if runs > 1 else "core time"))
+    return _named(told)
+
+
+def modal_facts(
+    bases: Mapping[str, ModalBasis], checks: Mapping[str, Sequence[Check]]
+) -> list[dict[str, str]]:
+    """Return the few numbers at the head of the page of a modal case."""
+    different = list(dict.fromkeys(bases.values()))
+    elastic = [hertz for basis in different for hertz in basis.frequencies if hertz > 0.0]
+    models = f"of {len(different)} models together" if len(different) > 1 else ""
+    told = [*_checked(checks), ("Modes", f"{sum(len(b.omega2) for b in different):,}", models)]
+    rigid = sum(len(basis.rigid_modes) for basis in different)
+    if rigid:
+        told.append(("Rigid modes", f"{rigid:,}", models))
+    if elastic:
+        beside = "beside the rigid modes" if rigid else ""
+        told.append(("Lowest frequency", with_unit(min(elastic), "Hz"), beside))
+        told.append(("Highest frequency", with_unit(max(elastic), "Hz"), ""))
+    return _named(told)
+
+
+def _checked(checks: Mapping[str, Sequence[Check]]) -> list[tuple[str, str, str]]:
+    """Return how many published values were met, and how closely."""
+    every = [check for some in checks.values() for check in some]
+    furthest = worst(every)
+    if furthest is None:
+        return []
+    met = sum(check.passed for check in every)
+    allowed = f"{tolerance_told(furthest)} allowed"
+    return [
+        ("Published values met", f"{met} of {len(every)}", ""),
+        ("Worst against its tolerance", deviation_told(furthest), allowed),
+    ]
+
+
+def _named(told: Sequence[tuple[str, str, str]]) -> list[dict[str, str]]:
     return [{"name": name, "value": value, "note": note} for name, value, note in told]
 
 
@@ -125,7 +163,16 @@ def methods(responses: Mapping[str, Response]) -> list[dict[str, str]]:
 
 def model(problems: Mapping[str, Problem]) -> list[dict[str, Any]]:
     """Return the model, one row a subject; where variants differ, each says its own."""
-    told = {name: dict(model_rows(problem)) for name, problem in problems.items()}
+    return _side_by_side({name: model_rows(problem) for name, problem in problems.items()})
+
+
+def modal_model(bases: Mapping[str, ModalBasis]) -> list[dict[str, Any]]:
+    """Return the model of a modal case, as `model` does."""
+    return _side_by_side({name: basis_rows(basis) for name, basis in bases.items()})
+
+
+def _side_by_side(variants: Mapping[str, Sequence[Row]]) -> list[dict[str, Any]]:
+    told = {name: dict(rows) for name, rows in variants.items()}
     terms = list(dict.fromkeys(term for rows in told.values() for term in rows))
     table = []
     for term in terms:

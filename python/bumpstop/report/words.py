@@ -36,6 +36,8 @@ def title_of(target: tuple[str | int, ...]) -> str:
             return f"Gap at stop {of[0]}"
         case "gauge":
             return f"Strain at gauge {of[0]}"
+        case "frequency":
+            return "Natural frequencies"
         case "energy":
             return _capitalised(ENERGIES[str(of[0])].long_name)
     name = str(quantity)

@@ -10,7 +10,11 @@ import pytest
 import bumpstop as bs
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from playwright.sync_api import Locator, Page
+
+    from .conftest import Opened
 
 
 def node_in_modes(modes: Locator) -> float:
@@ -51,3 +55,72 @@ class TestModes:
             "lines => lines.map(line => line.getAttribute('d'))"
         )
         assert len(set(paths)) == 10
+
+
+class TestTurning:
+    def test_a_frame_in_space_is_seen_from_where_it_is_turned_to(
+        self, opened: Opened, portal_page: Path
+    ) -> None:
+        page = opened(portal_page)
+        stage = page.locator("[data-part=mode-stage]")
+        front, back = place(stage, "foot1"), place(stage, "foot3")
+        assert front[1] > back[1]  # what is nearer stands lower on paper
+        box = stage.bounding_box()
+        assert box is not None
+        page.mouse.move(box["x"] + 100, box["y"] + 100)
+        page.mouse.down()
+        page.mouse.move(box["x"] + 100 + 50 * np.pi, box["y"] + 100, steps=8)
+        page.mouse.up()
+        turned = place(stage, "foot1")
+        # By a right angle: what was in front stands to the right now.
+        assert turned[0] > front[0] + 50.0
+        assert turned[1] < front[1]
+
+    def test_from_above_and_from_below_no_further(self, opened: Opened, portal_page: Path) -> None:
+        page = opened(portal_page)
+        stage = page.locator("[data-part=mode-stage]")
+        modes = page.locator("#modes-1")
+        modes.get_by_role("radio", name="6", exact=True).check()
+        stage.focus()
+        for _ in range(30):
+            page.keyboard.press("ArrowDown")
+        # From straight above the feet of a post, at rest, are where its top is at rest.
+        lines = stage.locator(".axis-line")
+        post = (lines.nth(0).get_attribute("d") or "")[1:].split("L")
+        start, end = (np.array(point.split(), dtype=float) for point in (post[0], post[-1]))
+        np.testing.assert_allclose(start, end, atol=0.1)
+
+    def test_its_modes_are_chosen_and_move(self, opened: Opened, portal_page: Path) -> None:
+        page = opened(portal_page)
+        modes = page.locator("#modes-1")
+        stage = page.locator("[data-part=mode-stage]")
+        rest = place(stage, "top2")
+        modes.get_by_role("radio", name="2", exact=True).check()
+        assert place(stage, "top2") != rest
+        assert modes.locator("[data-part=mode-title]").inner_text().startswith("Mode 2: ")
+        before = place(stage, "top2")
+        modes.locator("[data-part=swing]").click()
+        page.wait_for_timeout(300)
+        assert place(stage, "top2") != before
+        assert "none missed" in modes.inner_text()
+
+    def test_all_of_it_stays_on_the_stage(self, opened: Opened, portal_page: Path) -> None:
+        page = opened(portal_page)
+        stage = page.locator("[data-part=mode-stage]")
+        stage.focus()
+        box = stage.bounding_box()
+        assert box is not None
+        for key in ["ArrowLeft"] * 12 + ["ArrowUp"] * 12 + ["ArrowRight"] * 12:
+            page.keyboard.press(key)
+            for number in range(4):
+                x, y = place(stage, f"top{number}")
+                assert 0.0 < x < box["width"]
+                assert 0.0 < y < box["height"]
+
+    def test_the_page_needs_no_plotting_library(self, portal_page: Path) -> None:
+        assert portal_page.stat().st_size < 300_000
+
+
+def place(stage: Locator, node: str) -> tuple[float, float]:
+    dot = stage.locator(f"[data-node={node}]")
+    return float(dot.get_attribute("cx") or "nan"), float(dot.get_attribute("cy") or "nan")

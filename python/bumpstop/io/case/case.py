@@ -1,4 +1,4 @@
-"""Case: what a case file says, made of objects that can be simulated."""
+"""Case: what a case file says, made of objects."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, TypedDict
 
+from bumpstop.modal.basis import ModalBasis
 from bumpstop.post.references import Reference
 from bumpstop.problem import Problem
 
@@ -40,12 +41,14 @@ class Case:
         More about it.
     path
         The file.
+    bases
+        The modes of each variant; a case without variants has one, named ``base``.
     problems
-        The problem of each variant; a case without variants has one, named ``base``.
+        The problem of each variant that has one: a modal case, without ``[run]``, has none.
     references
         The known values of each variant.
     methods
-        How the time of each variant is integrated.
+        How the time of each problem is integrated.
     method, method_options
         The same for the case without its variants.
     """
@@ -54,6 +57,7 @@ class Case:
     title: str
     description: str
     path: Path
+    bases: dict[str, ModalBasis]
     problems: dict[str, Problem]
     references: dict[str, list[Reference]]
     methods: dict[str, Method]

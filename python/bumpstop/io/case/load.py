@@ -21,12 +21,17 @@ from bumpstop.io.case.mistakes import first_mistake
 from bumpstop.io.case.overrides import overridden, overridden_paths
 from bumpstop.io.case.references import build_references
 from bumpstop.io.case.tables.case_file import CaseFile
+from bumpstop.io.case.tables.run import RunTable
+from bumpstop.modal.basis import ModalBasis
 from bumpstop.problem import Problem
 
 __all__ = ["load_case"]
 
 BASE = "base"
-"""Name of the one problem of a case without variants."""
+"""Name of the one variant of a case without variants."""
+
+_IN_TIME = ("stops", "loads", "initial", "gauges", "outputs")
+"""Tables that mean nothing where nothing is simulated."""
 
 
 def load_case(path: str | PathLike[str]) -> Case:
@@ -60,17 +65,20 @@ def load_case(path: str | PathLike[str]) -> Case:
 def _case(file: Path, document: dict[str, Any]) -> Case:
     base = _checked(document, file.parent)
     variants = _variants(document, base, file.parent)
-    problems = _problems(variants, base, file.parent)
-    method = _method(base)
+    bases, problems = _built(variants, base, file.parent)
+    method = _method(base.run) if base.run is not None else Method("auto", {})
     name = _readable(file.absolute().parent.name)
     return Case(
         name=name,
         title=base.title or name,
         description=base.description,
         path=file,
+        bases=bases,
         problems=problems,
-        references=build_references(base.references, problems),
-        methods={variant: _method(tables) for variant, tables in variants.items()},
+        references=build_references(base.references, bases, problems),
+        methods={
+            variant: _method(tables.run) for variant, tables in variants.items() if tables.run
+        },
         method=method.name,
         method_options=method.options,
     )
@@ -81,11 +89,11 @@ def _readable(name: str) -> str:
     return os.fsencode(name).decode(errors="replace")
 
 
-def _method(case: CaseFile) -> Method:
-    options: MethodOptions = {"beyond_stability_limit": case.run.beyond_stability_limit}
-    if case.run.dt is not None:
-        options["dt"] = case.run.dt
-    return Method(case.run.method, options)
+def _method(run: RunTable) -> Method:
+    options: MethodOptions = {"beyond_stability_limit": run.beyond_stability_limit}
+    if run.dt is not None:
+        options["dt"] = run.dt
+    return Method(run.method, options)
 
 
 def _checked(document: dict[str, Any], folder: Path) -> CaseFile:
@@ -105,16 +113,36 @@ def _variants(document: dict[str, Any], base: CaseFile, folder: Path) -> dict[st
     for name, changes in base.variants.items():
         with _in_variant(name, base, folder):
             variants[name] = _checked(overridden(document, changes), folder)
+            if base.run is None and variants[name].run is not None:
+                hint = "give [run] in the case itself"
+                raise InputError("is given in a variant alone", key="run", hint=hint)
     return variants or {BASE: base}
 
 
-def _problems(variants: dict[str, CaseFile], base: CaseFile, folder: Path) -> dict[str, Problem]:
+def _built(
+    variants: dict[str, CaseFile], base: CaseFile, folder: Path
+) -> tuple[dict[str, ModalBasis], dict[str, Problem]]:
+    """Return the modes of each variant, and the problem of each that runs."""
     builder = Builder(folder)
-    problems = {}
+    bases, problems = {}, {}
     for name, tables in variants.items():
         with _in_variant(name, base, folder):
-            problems[name] = builder.problem(tables)
-    return problems
+            bases[name], problem = _variant(builder, tables)
+            if problem is not None:
+                problems[name] = problem
+    return bases, problems
+
+
+def _variant(builder: Builder, tables: CaseFile) -> tuple[ModalBasis, Problem | None]:
+    if tables.run is not None:
+        problem = builder.problem(tables, tables.run)
+        return problem.basis, problem
+    for part in _IN_TIME:
+        if getattr(tables, part):
+            what = f"is missing, and there are {part}"
+            hint = "say how long to simulate; modes alone need none of these"
+            raise InputError(what, key="run", hint=hint)
+    return builder.basis(tables), None
 
 
 @contextmanager
@@ -127,7 +155,7 @@ def _in_variant(name: str, base: CaseFile, folder: Path) -> Iterator[None]:
             raise
         key = error.key or ""
         if not _changed(key, base.variants[name]):
-            Builder(folder).problem(base)
+            _variant(Builder(folder), base)
         quoted = key if key.startswith('"') else f'"{key}"'
         raise InputError(
             error.what, key=f"variants.{name}.{quoted}", value=error.value, hint=error.hint

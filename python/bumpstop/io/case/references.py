@@ -1,4 +1,4 @@
-"""The references of a case file, each on the problem of its variant."""
+"""The references of a case file, each on its variant."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from bumpstop.io.case.fields.quantities import read_number
 from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.tables.references import ReferenceTable
 from bumpstop.io.units import Dimension
+from bumpstop.modal.basis import ModalBasis
 from bumpstop.post.references import Reference
 from bumpstop.problem import Problem
 
@@ -19,47 +20,56 @@ __all__ = ["build_references"]
 
 
 def build_references(
-    tables: Sequence[ReferenceTable], problems: Mapping[str, Problem]
+    tables: Sequence[ReferenceTable],
+    bases: Mapping[str, ModalBasis],
+    problems: Mapping[str, Problem],
 ) -> dict[str, list[Reference]]:
     """Return the references of each variant.
 
     Raises
     ------
     InputError
-        If a reference names what its problem does not have, or its times, values and
+        If a reference names what its variant does not have, or its times, values and
         tolerance do not fit together.
     """
-    references: dict[str, list[Reference]] = {name: [] for name in problems}
+    references: dict[str, list[Reference]] = {name: [] for name in bases}
     for number, table in enumerate(tables):
         with keyed(f"references.{number}"):
-            for variant in _variants(table, problems):
-                references[variant].append(_reference(table, problems[variant]))
+            for variant in _variants(table, bases):
+                reference = _reference(table, bases[variant], problems.get(variant))
+                references[variant].append(reference)
     return references
 
 
-def _variants(table: ReferenceTable, problems: Mapping[str, Problem]) -> list[str]:
+def _variants(table: ReferenceTable, bases: Mapping[str, ModalBasis]) -> list[str]:
     if table.variant is None:
-        return list(problems)
-    return [one_of("variant", table.variant, tuple(problems))]
+        return list(bases)
+    return [one_of("variant", table.variant, tuple(bases))]
 
 
-def _reference(table: ReferenceTable, problem: Problem) -> Reference:
+def _reference(table: ReferenceTable, basis: ModalBasis, problem: Problem | None) -> Reference:
     # The unit of the values follows from what they are values of, so that comes first.
     target = Reference(
         quantity=table.quantity,
-        times=_ascending(table.times or [], problem.duration),
+        times=_ascending(table.times or []),
         values=[1.0] * len(table.values),
         tolerance=1.0,
         node=table.node,
         dof=table.dof,
         mode=table.mode,
+        modes=table.modes,
         stop=table.stop,
         gauge=table.gauge,
         term=table.term,
         impact=table.impact,
         source=table.source,
     )
-    _check_target(target, problem)
+    _check_modes(target, basis)
+    if problem is not None:
+        _check_problem(target, problem)
+    elif target.modes is None:
+        hint = "without [run] there are frequencies alone"
+        raise InputError("is never computed", key="quantity", value=target.quantity, hint=hint)
     return replace(
         target,
         values=[_in_si(f"values.{i}", value, target) for i, value in enumerate(table.values)],
@@ -81,28 +91,37 @@ def _in_si(key: str, value: float | str, target: Reference, above: float | None 
         return read_number(value, dimension, above=above)
 
 
-def _ascending(times: Sequence[float], duration: float) -> Sequence[float]:
+def _ascending(times: Sequence[float]) -> Sequence[float]:
     for number, (earlier, later) in enumerate(pairwise(times), start=1):
         if later <= earlier:
             raise InputError("times must ascend", key=f"times.{number}", value=later)
-    if times and times[-1] > duration:
+    return times
+
+
+def _check_modes(reference: Reference, basis: ModalBasis) -> None:
+    """Raise where the basis has no such mode."""
+    for number, mode in enumerate(reference.modes or ()):
+        if mode > len(basis.omega2):
+            key = f"modes.{number}"
+            raise InputError(f"must be at most {len(basis.omega2)}", key=key, value=mode)
+    modes = len(basis.labels)
+    if reference.mode is not None and reference.mode > modes:
+        raise InputError(f"must be at most {modes}", key="mode", value=reference.mode)
+
+
+def _check_problem(reference: Reference, problem: Problem) -> None:
+    """Raise where the problem has no such node, stop or gauge, or ends earlier."""
+    times = reference.times
+    if len(times) and times[-1] > problem.duration:
         raise InputError(
             "is after the end of the run",
             key=f"times.{len(times) - 1}",
             value=times[-1],
-            hint=f"run.duration is {duration:g} s",
+            hint=f"run.duration is {problem.duration:g} s",
         )
-    return times
-
-
-def _check_target(reference: Reference, problem: Problem) -> None:
-    """Raise where the problem has no such node, stop, gauge or mode."""
     if reference.node is not None:
         problem.basis.row(reference.node, str(reference.dof))
     if reference.stop is not None:
         one_of("stop", reference.stop, [law.name for law in problem.laws])
     if reference.gauge is not None:
         one_of("gauge", reference.gauge, [gauge.name for gauge in problem.gauges])
-    modes = len(problem.basis.labels)
-    if reference.mode is not None and reference.mode > modes:
-        raise InputError(f"must be at most {modes}", key="mode", value=reference.mode)

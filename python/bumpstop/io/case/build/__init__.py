@@ -17,6 +17,7 @@ from bumpstop.problem import Problem
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.io.case.tables.run import RunTable
     from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["Builder"]
@@ -38,8 +39,8 @@ class Builder:
         self._folder = folder
         self._bases: list[tuple[CaseFile, ModalBasis]] = []
 
-    def problem(self, case: CaseFile) -> Problem:
-        """Return the problem that the tables describe.
+    def problem(self, case: CaseFile, run: RunTable) -> Problem:
+        """Return the problem that the tables describe, for as long as `run` says.
 
         Raises
         ------
@@ -47,7 +48,7 @@ class Builder:
             If something named is not there or numbers do not fit together; its key is that
             of the file.
         """
-        basis = self._basis(case)
+        basis = self.basis(case)
         initial = built_initial(case.initial)
         with keyed(renamed=_renamed(case)):
             return Problem(
@@ -55,13 +56,20 @@ class Builder:
                 laws=built_laws(case),
                 loads=built_loads(case),
                 initial=initial,
-                duration=case.run.duration,
-                sample=case.run.sample,
+                duration=run.duration,
+                sample=run.sample,
                 gauges=built_gauges(case),
                 outputs=[(output.node, output.dof) for output in case.outputs],
             )
 
-    def _basis(self, case: CaseFile) -> ModalBasis:
+    def basis(self, case: CaseFile) -> ModalBasis:
+        """Return the modes that the tables describe.
+
+        Raises
+        ------
+        InputError
+            As `problem` does.
+        """
         for known, basis in self._bases:
             if _same_basis(known, case):
                 return basis

@@ -65,7 +65,10 @@ class CaseFile(StructureTables):
     initial: InitialTable | None = Field(default=None, description="The state at t = 0")
     gauges: dict[Name, GaugeTable] = Field(default={}, description="Strain gauges, by name")
     outputs: list[OutputTable] = Field(default=[], description="More motions to write to files")
-    run: RunTable = Field(description="For how long to simulate, and how")
+    run: RunTable | None = Field(
+        default=None,
+        description="For how long to simulate, and how; without it a case is about modes alone",
+    )
     variants: dict[Name, dict[str, Any]] = Field(
         default={},
         description='The same case with other values, each by its dotted name: "stops.guide.gap"',

@@ -25,14 +25,17 @@ class ReferenceTable(Table):
     node: Node | None = Field(default=None, description="Of which node or point, for a motion")
     dof: OneDof | None = Field(default=None, description="Along or about which axis, for a motion")
     mode: Count | None = Field(default=None, description="Of which mode, counted from 1")
+    modes: list[Count] | None = Field(
+        default=None, description="Of which modes, for frequencies: one a value"
+    )
     stop: Name | None = Field(default=None, description="Of which stop")
     gauge: Name | None = Field(default=None, description="Of which gauge")
     term: Name | None = Field(default=None, description="Which term of the energy ledger")
     impact: Count | None = Field(default=None, description="Of which impact, counted from 1")
     times: Times | None = Field(
-        default=None, description="When, in s, in ascending order; none for an impact"
+        default=None, description="When, in s, in ascending order; none for impacts and frequencies"
     )
-    values: WrittenList = Field(description="The known values, one a time, in SI units")
+    values: WrittenList = Field(description="The known values, one a time or mode, in SI units")
     tolerance: PositiveNumber | None = Field(
         default=None, description="Largest deviation, relative to each value"
     )

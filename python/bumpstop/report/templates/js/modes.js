@@ -1,11 +1,14 @@
 // The modes: a thumbnail of each shape in the table, and the chosen one drawn large.
 
 const SWING_SECONDS = 2;
+const RADIANS_A_PIXEL = 0.01;
+const RADIANS_A_KEY = Math.PI / 24;
 
 class Modes {
   constructor(root, scene) {
     this.root = root;
-    this.scene = scene;
+    this.table = scene.vertical ? new Turntable(scene) : null;
+    this.scene = this.table ? this.table.onPaper() : scene;
     this.chosen = 0;
     this.phase = Math.PI / 2;
     this.swinging = false;
@@ -21,6 +24,7 @@ class Modes {
       });
     });
     this.button.addEventListener("click", () => this.setSwinging(!this.swinging));
+    if (this.table) this.letTurn(this.stage.element);
     this.drawThumbnails();
     new ResizeObserver(() => this.layOut()).observe(root);
     this.choose(0);
@@ -37,6 +41,28 @@ class Modes {
     stage.magnification = extent > 0 ? 0.13 * extent : 1;
     stage.reach(this.allModes());
     return stage;
+  }
+
+  letTurn(element) {
+    element.addEventListener("pointerdown", (event) => element.setPointerCapture(event.pointerId));
+    element.addEventListener("pointermove", (event) => {
+      if (!element.hasPointerCapture(event.pointerId)) return;
+      this.turn(event.movementX * RADIANS_A_PIXEL, event.movementY * RADIANS_A_PIXEL);
+    });
+    const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    element.addEventListener("keydown", (event) => {
+      if (!(event.key in turns)) return;
+      event.preventDefault();
+      this.turn(...turns[event.key].map((step) => step * RADIANS_A_KEY));
+    });
+  }
+
+  turn(azimuth, tilt) {
+    this.table.turn(azimuth, tilt);
+    this.scene = this.table.onPaper();
+    this.stage.scene = this.scene;
+    this.stage.largestScale = this.stage.scale;
+    this.layOut();
   }
 
   allModes() {
@@ -112,7 +138,8 @@ class Modes {
     const { stage, scene } = this;
     const width = stage.element.parentElement.clientWidth;
     if (width === 0) return;
-    stage.fit(width, scene.lines.length ? 300 : 220);
+    if (this.table) stage.reach([this.modal(this.chosen, 1), this.modal(this.chosen, -1)]);
+    stage.fit(width, this.tallest());
     stage.element.replaceChildren();
     stage.drawFixedParts(svg("g", {}, stage.element));
     for (const extreme of [1, -1]) {
@@ -136,6 +163,11 @@ class Modes {
       return dot;
     });
     this.show();
+  }
+
+  tallest() {
+    if (this.table) return 420;
+    return this.scene.lines.length ? 300 : 220;
   }
 
   show() {

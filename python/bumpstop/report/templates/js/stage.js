@@ -12,6 +12,7 @@ class Stage {
     this.pointCount = scene.points.length / 2;
     this.modeCount = scene.shapes.length / scene.points.length;
     this.magnification = 1;
+    this.largestScale = Infinity;
     this.ranges = null;
   }
 
@@ -53,6 +54,8 @@ class Stage {
     const scales = [0, 1].map((axis) => (spread[axis] > 0 ? room[axis] / spread[axis] : Infinity));
     this.scale = Math.min(...scales);
     if (!Number.isFinite(this.scale)) this.scale = 1;
+    // What is turned may become smaller on paper to fit, but does not jump back.
+    this.scale = Math.min(this.scale, this.largestScale);
     this.width = width;
     this.height = Math.min(tallest, Math.max(spread[1] * this.scale + pad.top + pad.bottom, 170));
     this.origin = [
