@@ -10,7 +10,7 @@ from statistics import median
 
 SDNL32 = Path(__file__).parents[2] / "cases" / "sdnl32" / "case.toml"
 
-LATE = ("pandas", "xarray", "pint", "plotly", "scipy", "rich", "jinja2", "matplotlib")
+LATE = ("pydantic", "pandas", "xarray", "pint", "plotly", "scipy", "rich", "jinja2", "matplotlib")
 """Packages that a run on plain numbers, without a report and without a terminal, can do without."""
 
 UNUSED = (
@@ -47,7 +47,7 @@ UNUSED = (
 )
 """Modules of ours for what SDNL32 does not have."""
 
-MOST_OWN = 130
+MOST_OWN = 135
 """Modules of ours that a run of SDNL32 may load. Each takes about 0.2 ms, a dataclass 0.3 more:
 before raising this, see whether the new ones could wait until a case needs them."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import os
 import sys
 from collections.abc import Sequence
 
@@ -26,12 +25,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit status: 0 good; 1 a reference check failed; 2 the input is wrong; 3 the
         computation could not be finished; 130 interrupted.
     """
-    # Half of the time of a short run goes into imports. They make many objects and no garbage,
-    # so collecting it only costs; and no plugin of pydantic has a say in case files, while
-    # looking for one reads what every installed package says of itself.
+    # Most of the time of a short run goes into imports. They make many objects and no garbage,
+    # so collecting it only costs.
     collecting = gc.isenabled()
     gc.disable()
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
         from bumpstop.cli.main import run_command_line
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bumpstop.io.case.tables.case_file import CaseFile
+from bumpstop.io.case.tables.models import model_of
 
 __all__ = ["case_schema"]
 
@@ -17,7 +18,7 @@ def case_schema() -> dict[str, Any]:
     >>> case_schema()["title"]
     'bumpstop case'
     """
-    schema = CaseFile.model_json_schema()
+    schema = model_of(CaseFile).model_json_schema()
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **schema,

@@ -5,14 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic_core import ValidationError
 
 from bumpstop.arguments import did_you_mean
 from bumpstop.errors import InputError
 from bumpstop.io.case.document import read_document
 from bumpstop.io.case.mistakes import first_mistake
 from bumpstop.io.case.tables.case_file import CaseFile
+from bumpstop.io.case.tables.check import checked
 from bumpstop.io.case.tables.structure import StructureTables
+from bumpstop.io.case.tables.table import keys_of
 
 __all__ = ["with_component_files"]
 
@@ -51,8 +53,8 @@ def _with_file(component: Any, folder: Path) -> Any:
 def _structure(file: Path) -> dict[str, Any]:
     """Return the tables of the structure in a case file, checked by themselves."""
     document = read_document(file)
-    known = CaseFile.model_fields
-    tables = {key: document[key] for key in StructureTables.model_fields if key in document}
+    known = keys_of(CaseFile)
+    tables = {key: document[key] for key in keys_of(StructureTables) if key in document}
     try:
         for key, value in document.items():
             if key not in known:
@@ -60,7 +62,7 @@ def _structure(file: Path) -> dict[str, Any]:
         if "nodes" not in tables:
             what = "has no structure of its own that could be a component"
             raise InputError(what, key="nodes", hint="only nodes, and what stands on them, count")
-        StructureTables.model_validate(tables)
+        checked(StructureTables, tables)
     except ValidationError as error:
         raise first_mistake(error, StructureTables).located(file=str(file)) from error
     except InputError as error:

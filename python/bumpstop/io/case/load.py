@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
+from pydantic_core import ValidationError
 
 from bumpstop.errors import InputError
 from bumpstop.io.case.build import Builder
@@ -21,6 +21,7 @@ from bumpstop.io.case.mistakes import first_mistake
 from bumpstop.io.case.overrides import overridden, overridden_paths
 from bumpstop.io.case.references import build_references
 from bumpstop.io.case.tables.case_file import CaseFile
+from bumpstop.io.case.tables.check import checked
 from bumpstop.io.case.tables.run import RunTable
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.problem import Problem
@@ -102,7 +103,7 @@ def _checked(document: dict[str, Any], folder: Path) -> CaseFile:
 
         document = with_component_files(document, folder)
     try:
-        return CaseFile.model_validate(document)
+        return checked(CaseFile, document)
     except ValidationError as error:
         raise first_mistake(error, CaseFile) from error
 

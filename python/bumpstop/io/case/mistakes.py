@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Union, get_args, g
 from bumpstop.arguments import did_you_mean
 from bumpstop.errors import InputError
 from bumpstop.io.case.keys import KeyPath, dotted
+from bumpstop.io.case.tables.check import kind_words
 from bumpstop.io.case.tables.later import Later
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Table, keys_of
 
 if TYPE_CHECKING:
-    from pydantic import ValidationError
-    from pydantic_core import ErrorDetails
+    from pydantic_core import ErrorDetails, ValidationError
 
 __all__ = ["first_mistake"]
 
@@ -135,11 +135,11 @@ def _place(location: KeyPath, model: type[Table]) -> _Place:
             continue
         path.append(part)
         if isinstance(annotation, type) and issubclass(annotation, Table):
-            fields = annotation.model_fields
-            siblings = list(fields)
-            field = fields.get(str(part))
-            description = field.description if field else None
-            annotation = field.annotation if field else None
+            keys = keys_of(annotation)
+            siblings = list(keys)
+            key = keys.get(str(part))
+            description = key.description if key else None
+            annotation = key.annotation if key else None
         else:
             annotation = get_args(annotation)[-1] if get_args(annotation) else None
     return _Place(tuple(path), siblings, description)
@@ -163,10 +163,4 @@ def _is_union(annotation: Any) -> bool:
 def _member(union: Any, tag: str | int) -> Any:
     """Return the member of a tagged union that is of the kind of the tag."""
     members = (_bare(member) for member in get_args(union))
-    return next(member for member in members if tag in _kinds(member))
-
-
-def _kinds(table: type[Table]) -> tuple[Any, ...]:
-    """Return the words by which a table says its kind: in its first field, a Literal."""
-    first = next(iter(table.model_fields.values()))
-    return get_args(first.annotation)
+    return next(member for member in members if tag in kind_words(member))

@@ -13,6 +13,7 @@ from bumpstop.io.case.build.loads import built_loads
 from bumpstop.io.case.build.source import SOURCES, require_one_source
 from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.tables.structure import StructureTables
+from bumpstop.io.case.tables.table import keys_of
 from bumpstop.problem import Problem
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Builder"]
 
-_STRUCTURE = (*SOURCES, *StructureTables.model_fields, "components", "joints", "basis")
+_STRUCTURE = (*SOURCES, *keys_of(StructureTables), "components", "joints", "basis")
 """Tables that the modes are made of."""
 
 

@@ -69,7 +69,7 @@ def _model(table: ComponentTable, case: CaseFile, folder: Path) -> LinearModel:
 
         return built_matrices(table, table.matrices, folder)
     shared = {kind: {**getattr(case, kind), **getattr(table, kind)} for kind in _SHARED}
-    return built_structure(table.model_copy(update=shared))
+    return built_structure(table.replaced(**shared))
 
 
 def _rotation(part: PartTable) -> Rotation | None:

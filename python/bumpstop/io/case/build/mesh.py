@@ -29,7 +29,7 @@ def built_meshed(case: CaseFile, table: MeshTable, folder: Path) -> Structure:
         mesh = read_mesh(folder / table.file).scaled(table.unit)
     groups = _group_of_lines(mesh, table)
     beams = {
-        line: BeamTable.model_construct(nodes=mesh.lines[line], **dict(table.beams[group]))
+        line: BeamTable.unchecked(nodes=mesh.lines[line], **dict(table.beams[group]))
         for line, group in groups.items()
     }
     changes: dict[str, Any] = {
@@ -38,7 +38,7 @@ def built_meshed(case: CaseFile, table: MeshTable, folder: Path) -> Structure:
         "supports": [*_supports(mesh, case.supports)],
     }
     with _told_of_groups(groups), keyed():
-        return built_structure(case.model_copy(update=changes))
+        return built_structure(case.replaced(**changes))
 
 
 def _group_of_lines(mesh: LineMesh, table: MeshTable) -> dict[str, str]:
@@ -69,7 +69,7 @@ def _supports(mesh: LineMesh, tables: Iterable[SupportTable]) -> Iterator[Suppor
             yield table
             continue
         with keyed(f"supports.{number}"):
-            yield table.model_copy(update={"nodes": mesh.nodes_of(table.nodes)})
+            yield table.replaced(nodes=mesh.nodes_of(table.nodes))
 
 
 @contextmanager

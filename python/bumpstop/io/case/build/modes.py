@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop.errors import InputError
 from bumpstop.io.case.keys import keyed
+from bumpstop.io.case.tables.table import written_keys
 from bumpstop.io.modes.read import read_modes
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ _KEYS = {"modes": "basis.modes", "damping": "basis.damping", "modal_mass": "mode
 
 def built_modes(case: CaseFile, table: ModesTable, folder: Path) -> ModalBasis:
     """Return the basis of the modes that the file holds."""
-    said = case.basis.model_fields_set
+    said = written_keys(case.basis)
     for key in _OF_STRUCTURES:
         if key in said:
             hint = "leave it out: modes from a file have none"

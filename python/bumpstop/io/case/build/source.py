@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop.errors import InputError
 from bumpstop.io.case.tables.structure import StructureTables
+from bumpstop.io.case.tables.table import keys_of
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
 __all__ = ["SOURCES", "require_one_source"]
 
 _BESIDE = {
-    "nodes": (*StructureTables.model_fields, "basis"),
-    "mesh": (*(table for table in StructureTables.model_fields if table != "nodes"), "basis"),
+    "nodes": (*keys_of(StructureTables), "basis"),
+    "mesh": (*(table for table in keys_of(StructureTables) if table != "nodes"), "basis"),
     "matrices": ("supports", "basis"),
     "modes": ("basis",),
     "parts": ("components", "materials", "sections", "supports", "joints", "basis"),

@@ -2,15 +2,13 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.counts import CountFromZero
 from bumpstop.io.case.fields.damping import ModalDamping
 from bumpstop.io.case.fields.modes import Modes
 from bumpstop.io.case.fields.quantities import Ratio
 from bumpstop.io.case.fields.shapes import Places, PlacesOrStops
 from bumpstop.io.case.fields.words import Dofs, choice
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["BasisTable"]
 

@@ -2,12 +2,10 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.counts import Count
 from bumpstop.io.case.fields.quantities import Angle, AngularRate, Force, LineMass
 from bumpstop.io.case.fields.words import BeamEnds, Name, choice
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 from bumpstop.structure.elements import THEORIES
 
 __all__ = ["BeamPropertiesTable", "BeamTable"]

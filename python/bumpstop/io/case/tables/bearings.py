@@ -1,11 +1,9 @@
 """``[bearings.NAME]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.constants import PlaneDamping, PlaneStiffness
 from bumpstop.io.case.fields.quantities import Number3
 from bumpstop.io.case.fields.words import Node
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["BearingTable"]
 

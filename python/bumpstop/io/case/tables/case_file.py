@@ -2,8 +2,6 @@
 
 from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.words import Name, Text
 from bumpstop.io.case.tables.basis import BasisTable
 from bumpstop.io.case.tables.gauges import GaugeTable
@@ -33,6 +31,7 @@ else:
     ModesTable = later("modes", "ModesTable")
     OutputTable = later("outputs", "OutputTable")
     PartTable = later("parts", "PartTable")
+from bumpstop.io.case.tables.table import Field
 
 __all__ = ["CaseFile"]
 

@@ -2,12 +2,11 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.interface import InnerModes, Interface
 from bumpstop.io.case.fields.words import Text, choice
 from bumpstop.io.case.tables.matrices import MatricesTable
 from bumpstop.io.case.tables.structure import StructureTables
+from bumpstop.io.case.tables.table import Field
 
 __all__ = ["ComponentTable"]
 

@@ -1,10 +1,8 @@
 """``[gauges.NAME]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import Length, Length2
 from bumpstop.io.case.fields.words import BeamName
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["GaugeTable"]
 

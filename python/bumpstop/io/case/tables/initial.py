@@ -1,10 +1,8 @@
 """``[initial]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import AngularRate3, Numbers
 from bumpstop.io.case.fields.words import Node
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["InitialTable", "ModalStateTable", "RotationTable"]
 

@@ -1,9 +1,7 @@
 """``[[joints]]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.words import BeamEnds, Dofs
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["JointTable"]
 

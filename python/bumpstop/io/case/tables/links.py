@@ -1,9 +1,7 @@
 """``[links.NAME]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.words import Dofs, LinkedNodes
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 from bumpstop.structure.dofs import DOFS
 
 __all__ = ["LinkTable"]

@@ -2,11 +2,9 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import Acceleration3, Force3, Moment3
 from bumpstop.io.case.fields.words import Node
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Kinds, Table
 
 __all__ = ["ForceTable", "GravityTable", "LoadTable"]
 
@@ -27,4 +25,4 @@ class GravityTable(Table):
     acceleration: Acceleration3 = Field(description="Components along X, Y, Z, in m/s2")
 
 
-LoadTable = Annotated[ForceTable | GravityTable, Field(discriminator="type")]
+LoadTable = Annotated[ForceTable | GravityTable, Kinds("type")]

@@ -1,11 +1,9 @@
 """``[masses.NAME]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.constants import Axes2, Inertia
 from bumpstop.io.case.fields.quantities import AngularRate, Length3, Mass
 from bumpstop.io.case.fields.words import Node
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["MassTable"]
 

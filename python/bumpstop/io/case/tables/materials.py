@@ -1,9 +1,7 @@
 """``[materials.NAME]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import Density, PoissonRatio, Pressure
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["MaterialTable"]
 

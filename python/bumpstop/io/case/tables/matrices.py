@@ -1,10 +1,8 @@
 """``[matrices]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import Force, PositiveLength, PositiveNumber
 from bumpstop.io.case.fields.words import Text
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["MatricesTable"]
 

@@ -1,12 +1,10 @@
 """``[mesh]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.counts import Count
 from bumpstop.io.case.fields.quantities import PositiveLength
 from bumpstop.io.case.fields.words import Group, Text
 from bumpstop.io.case.tables.beams import BeamPropertiesTable
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["MeshBeamTable", "MeshTable"]
 

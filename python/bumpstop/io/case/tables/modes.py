@@ -1,10 +1,8 @@
 """``[modes]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.masses import ModalMass
 from bumpstop.io.case.fields.words import Text
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["ModesTable"]
 

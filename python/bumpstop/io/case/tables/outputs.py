@@ -1,9 +1,7 @@
 """``[[outputs]]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.words import Node, OneDof
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["OutputTable"]
 

@@ -1,10 +1,8 @@
 """``[parts.NAME]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import Angle, Length3, Number3
 from bumpstop.io.case.fields.words import Name
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["PartTable", "RotationTable"]
 

@@ -2,12 +2,10 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.counts import Count
 from bumpstop.io.case.fields.quantities import PositiveNumber, Times, Written, WrittenList
 from bumpstop.io.case.fields.words import Name, Node, OneDof, Text, choice
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 from bumpstop.post.references import REFERENCE_QUANTITIES
 
 __all__ = ["ReferenceTable"]

@@ -1,10 +1,8 @@
 """``[[relations]]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import Length
 from bumpstop.io.case.fields.words import Node, OneDof
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["RelationTable"]
 

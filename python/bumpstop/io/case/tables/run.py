@@ -2,12 +2,10 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.counts import Switch
 from bumpstop.io.case.fields.quantities import PositiveTime
 from bumpstop.io.case.fields.words import choice
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 from bumpstop.simulate import METHODS
 
 __all__ = ["RunTable"]

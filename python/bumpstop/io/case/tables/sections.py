@@ -2,8 +2,6 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.factors import PlainShearFactors, ShearFactors
 from bumpstop.io.case.fields.quantities import (
     Area,
@@ -11,7 +9,7 @@ from bumpstop.io.case.fields.quantities import (
     Length2,
     PositiveLength,
 )
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Kinds, Table
 
 __all__ = ["CircleTable", "GeneralSectionTable", "RectangleTable", "SectionTable", "TubeTable"]
 
@@ -70,5 +68,5 @@ class GeneralSectionTable(Table):
 
 
 SectionTable = Annotated[
-    RectangleTable | CircleTable | TubeTable | GeneralSectionTable, Field(discriminator="shape")
+    RectangleTable | CircleTable | TubeTable | GeneralSectionTable, Kinds("shape")
 ]

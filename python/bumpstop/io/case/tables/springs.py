@@ -1,10 +1,8 @@
 """``[springs.NAME]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.constants import Axes2, SpringDamping, SpringStiffness
 from bumpstop.io.case.fields.words import Node
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["SpringTable"]
 

@@ -2,11 +2,9 @@
 
 from typing import Annotated
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import DampingConstant, Length, Number3, Stiffness
 from bumpstop.io.case.fields.words import Node, choice
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["StopTable"]
 

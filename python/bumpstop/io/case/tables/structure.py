@@ -2,8 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.quantities import Length3
 from bumpstop.io.case.fields.words import Name, NodeName
 from bumpstop.io.case.tables.beams import BeamTable
@@ -11,7 +9,7 @@ from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.materials import MaterialTable
 from bumpstop.io.case.tables.sections import SectionTable
 from bumpstop.io.case.tables.supports import SupportTable
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 # What a case need not have is loaded with those that have it.
 if TYPE_CHECKING:

@@ -1,9 +1,7 @@
 """``[[supports]]``."""
 
-from pydantic import Field
-
 from bumpstop.io.case.fields.words import Dofs, Nodes
-from bumpstop.io.case.tables.table import Table
+from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["SupportTable"]
 
