@@ -6,6 +6,7 @@ use super::phase::{Phase, Phases};
 use super::rows::{ComplexBlock, RealBlock};
 use super::signal::{Instant, Signal};
 use super::spectrum::Spectrum;
+use super::tables::{Level, Tables};
 use crate::number::{Instructions, Lanes, Number};
 
 /// Cells after which the exponentials are computed afresh, so that products do not pile up
@@ -71,26 +72,10 @@ pub(crate) struct Certificate {
     pub missed: f64,
 }
 
-/// Exponentials over half a cell and over a whole one, and what a whole one multiplies sizes with.
-#[derive(Debug, Clone, Default)]
-struct Level {
-    filled: bool,
-    half: Vec<ComplexBlock>,
-    whole: Vec<ComplexBlock>,
-    growth: Vec<RealBlock>,
-}
-
-/// The tables of one spectrum, by level.
-#[derive(Debug, Clone, Default)]
-struct Tables {
-    levels: Vec<Level>,
-}
-
 /// The walker, with its tables for each spectrum of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Walk {
-    tables: Vec<Tables>,
-    longest: f64,
+    tables: Tables,
     /// The shortest typical time of the present phase.
     period: f64,
     left: Vec<ComplexBlock>,
@@ -135,14 +120,9 @@ enum Outcome {
 }
 
 impl Walk {
-    /// Forgets all tables: the walker turns to another run, whose longest cell is given.
+    /// Turns to another run, whose longest cell is given.
     pub(crate) fn start(&mut self, longest: f64) {
-        self.longest = longest;
-        for tables in &mut self.tables {
-            for level in &mut tables.levels {
-                level.filled = false;
-            }
-        }
+        self.tables.start(longest);
     }
 
     /// The first zero of any signal on the path, if there is one.
@@ -158,8 +138,8 @@ impl Walk {
         let mut since_anchor = 0;
         let mut successes = 0;
         while time < path.limit {
-            self.fill::<I>(&path, level);
-            let width = self.width(level);
+            (self.tables).fill::<I>(path.phase.spectrum, spectrum, level);
+            let width = self.tables.width(level);
             certificate.cells += 1;
             match self.judge::<I>(&path, time, level, certificate) {
                 Outcome::Clear => {
@@ -210,61 +190,22 @@ impl Walk {
             self.left.fill(ComplexBlock::ONE);
             self.sizes.fill(RealBlock::ONE);
         }
-        self.period = self.longest.min(1.0 / spectrum.fastest);
+        self.period = self.tables.longest().min(1.0 / spectrum.fastest);
         let mut pace = 0.0f64;
         for signal in path.signals {
             pace = pace.max(signal.pace(spectrum));
         }
         let mut level = 0;
-        while self.width(level) * pace > 2.0 && level < 1000 {
+        while self.tables.width(level) * pace > 2.0 && level < 1000 {
             level += 1;
         }
         level
     }
 
-    /// Width of the cells of a level: each half of the one before.
-    #[inline(always)]
-    fn width(&self, level: usize) -> f64 {
-        self.longest * f64::from_bits((1023 - level.min(1022) as u64) << 52)
-    }
-
-    #[inline(always)]
-    fn fill<I: Instructions>(&mut self, path: &Path<'_>, level: usize) {
-        if self.tables.len() <= path.phase.spectrum {
-            (self.tables).resize_with(path.phase.spectrum + 1, Tables::default);
-        }
-        let levels = &mut self.tables[path.phase.spectrum].levels;
-        if levels.len() <= level {
-            levels.resize_with(level + 1, Level::default);
-        }
-        let half = 0.5 * self.width(level);
-        let Level {
-            filled,
-            half: to_half,
-            whole,
-            growth,
-        } = &mut self.tables[path.phase.spectrum].levels[level];
-        if *filled {
-            return;
-        }
-        let lambda = &path.spectrum().lambda;
-        to_half.resize(lambda.len(), ComplexBlock::ONE);
-        whole.resize(lambda.len(), ComplexBlock::ONE);
-        growth.resize(lambda.len(), RealBlock::ONE);
-        let half = Lanes::<I>::of(half);
-        for (b, lambda) in lambda.iter().enumerate() {
-            let (factor, size) = lambda.lanes::<I>().scale(half).exp_and_size();
-            to_half[b].put(factor);
-            whole[b].put(factor * factor);
-            growth[b].put(size * size);
-        }
-        *filled = true;
-    }
-
     /// Carries the sizes over a cell.
     #[inline(always)]
     fn grow<I: Instructions>(&mut self, path: &Path<'_>, level: usize) {
-        let growth = &self.tables[path.phase.spectrum].levels[level].growth;
+        let growth = &self.tables.level(path.phase.spectrum, level).growth;
         for (size, growth) in self.sizes.iter_mut().zip(growth) {
             size.put(size.lanes::<I>() * growth.lanes());
         }
@@ -291,13 +232,13 @@ impl Walk {
         certificate: &mut Certificate,
     ) -> Outcome {
         let spectrum = path.spectrum();
-        let width = self.width(level);
+        let width = self.tables.width(level);
         let Level {
             half,
             whole,
             growth,
             ..
-        } = &self.tables[path.phase.spectrum].levels[level];
+        } = self.tables.level(path.phase.spectrum, level);
         for b in 0..spectrum.lambda.len() {
             let left = self.left[b].lanes::<I>();
             self.middle[b].put(left * half[b].lanes());

@@ -19,6 +19,7 @@ mod secular;
 mod signal;
 mod single_mode;
 mod spectrum;
+mod tables;
 mod view;
 
 pub use jet::{Jet, Verdict};

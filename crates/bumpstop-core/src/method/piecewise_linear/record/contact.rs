@@ -1,0 +1,179 @@
+//! Reading the impacts of one law along the phases.
+
+use super::PhaseRecord;
+use crate::impacts::Impact;
+use crate::law::{COORDINATES, Guard, Law, project};
+use crate::method::piecewise_linear::advance::{Certificate, Path, Start, Walk};
+use crate::method::piecewise_linear::phase::{Phase, Workspace};
+use crate::method::piecewise_linear::signal::Signal;
+use crate::number::Plain;
+use crate::problem::Problem;
+
+/// Reads the contact of one law along phases, once and at leisure: in plain arithmetic, which
+/// gives the same bits and compiles once.
+pub(super) struct ContactReader<'a, L> {
+    record: &'a PhaseRecord,
+    problem: &'a Problem<L>,
+    law: usize,
+    first_view: usize,
+    walk: Walk,
+    work: Workspace,
+}
+
+impl<'a, L: Law> ContactReader<'a, L> {
+    pub(super) fn new(record: &'a PhaseRecord, problem: &'a Problem<L>, law: usize) -> Self {
+        let before = &problem.laws[..law];
+        let mut walk = Walk::default();
+        walk.start(record.duration);
+        Self {
+            record,
+            problem,
+            law,
+            first_view: before.iter().map(|l| l.rows().len()).sum(),
+            walk,
+            work: Workspace::default(),
+        }
+    }
+
+    pub(super) fn impacts(&mut self) -> Vec<Impact> {
+        let phases = &self.record.phases;
+        let which = &self.problem.laws[self.law];
+        let mut impacts = Vec::new();
+        let mut current: Option<Impact> = None;
+        for (number, phase) in phases.list.iter().enumerate() {
+            let contact = which.in_contact(phases.states(*phase)[self.law]);
+            if contact && current.is_none() {
+                let [_, speed, _] = self.at(*phase, 0.0);
+                current = Some(Impact::starting(phase.start, -speed));
+            }
+            if !contact && let Some(mut impact) = current.take() {
+                impact.end = phase.start;
+                impact.opening_speed = self.at(*phase, 0.0)[1];
+                impacts.push(impact);
+            }
+            if let Some(impact) = &mut current {
+                let next = phases.list.get(number + 1);
+                let end = next.map_or(self.record.duration, |p| p.start);
+                self.add_phase(*phase, end - phase.start, impact);
+            }
+        }
+        impacts.extend(current);
+        // A touch of no duration is a switch back and forth at one instant, not an impact.
+        impacts.retain(|i| i.end != i.start);
+        impacts
+    }
+
+    /// Distance, its rate and the force, `t` after the start of a phase.
+    fn at(&mut self, phase: Phase, t: f64) -> [f64; 3] {
+        let motion = (self.record).motion_in::<Plain, L>(self.problem, phase, t, &mut self.work);
+        let law = &self.problem.laws[self.law];
+        let (position, velocity) = (project(law, &motion.q), project(law, &motion.v));
+        let (distance, rate) = law.distance(&position, &velocity);
+        let state = self.record.phases.states(phase)[self.law];
+        [distance, rate, law.force(state, &position, &velocity)[0]]
+    }
+
+    /// Adds a phase of the given length to an impact.
+    fn add_phase(&mut self, phase: Phase, length: f64, impact: &mut Impact) {
+        let law = &self.problem.laws[self.law];
+        let state = self.record.phases.states(phase)[self.law];
+        let Some(piece) = law.piece(state).filter(|p| p.acts()) else {
+            return;
+        };
+        let mut force = Guard {
+            name: "force",
+            constant: piece.constant[0],
+            position: [0.0; COORDINATES],
+            velocity: [0.0; COORDINATES],
+        };
+        force.position[0] = -piece.stiffness[0][0];
+        force.velocity[0] = -piece.damping[0][0];
+        let mut distance = force;
+        (distance.position[0], distance.velocity[0]) = (1.0, 0.0);
+        let signal = self.signal(phase, &force);
+        impact.impulse += signal.integral(&self.record.phases, phase, length);
+        self.add_peaks(phase, length, &signal, impact);
+        let signal = self.signal(phase, &distance);
+        self.add_work(phase, length, &signal, impact);
+    }
+
+    fn signal(&self, phase: Phase, guard: &Guard) -> Signal {
+        let mut signal = Signal::default();
+        let remaining = self.problem.duration - phase.start;
+        let phases = &self.record.phases;
+        let views = &phases.spectra[phase.spectrum].views[self.first_view..];
+        signal.set::<Plain>(phases, phase, views, guard, remaining);
+        signal
+    }
+
+    fn add_peaks(&mut self, phase: Phase, length: f64, force: &Signal, impact: &mut Impact) {
+        let mut instants = vec![0.0, length];
+        instants.extend(self.turning_points(phase, length, force));
+        for t in instants {
+            let [_, _, force] = self.at(phase, t);
+            impact.see_force(phase.start + t, force);
+        }
+    }
+
+    /// Between turning points of the distance the work has one sign.
+    fn add_work(&mut self, phase: Phase, length: f64, distance: &Signal, impact: &mut Impact) {
+        let mut instants = vec![0.0];
+        instants.extend(self.turning_points(phase, length, distance));
+        instants.push(length);
+        let given: Vec<f64> = instants.iter().map(|t| self.taken(phase, *t)).collect();
+        for pair in given.windows(2) {
+            impact.add_work(pair[0] - pair[1]);
+        }
+    }
+
+    /// Energy in the law, stored or dissipated since the start of the phase.
+    fn taken(&mut self, phase: Phase, t: f64) -> f64 {
+        let law = &self.problem.laws[self.law];
+        let form = &self.record.accounts(self.problem).forms[phase.spectrum];
+        let dissipated = form.until::<Plain>(&self.record.phases, phase, t, &mut self.work);
+        let motion = (self.record).motion_in::<Plain, L>(self.problem, phase, t, &mut self.work);
+        let state = self.record.phases.states(phase)[self.law];
+        law.stored(state, &project(law, &motion.q)) + dissipated.laws[self.law]
+    }
+
+    /// All zeros of a signal's rate inside a phase, in order.
+    fn turning_points(&mut self, phase: Phase, length: f64, signal: &Signal) -> Vec<f64> {
+        let phases = &self.record.phases;
+        let mut rate = signal.derivative(phases, phase);
+        let mut found = Vec::new();
+        let mut from = 0.0;
+        let mut certificate = Certificate::default();
+        let mut start = if rate.orient(phases, phase) {
+            Start::Positive
+        } else {
+            Start::Zero
+        };
+        let limit = MOST_TURNING_POINTS;
+        while found.len() < limit {
+            let rates = std::slice::from_ref(&rate);
+            let path = Path {
+                phases,
+                phase,
+                signals: rates,
+                starts: &[start],
+                from,
+                limit: length,
+            };
+            let zero = self.walk.first_zero::<Plain>(path, &mut certificate);
+            let Some(zero) = zero else {
+                break;
+            };
+            if zero.time > from {
+                found.push(zero.time);
+            }
+            from = zero.time;
+            start = Start::Zero;
+            rate.negate();
+        }
+        found
+    }
+}
+
+/// Turning points of one contact phase after which the search ends: a resting contact rings
+/// for ever at the level of rounding.
+const MOST_TURNING_POINTS: usize = 100_000;

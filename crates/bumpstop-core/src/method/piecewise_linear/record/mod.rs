@@ -1,0 +1,171 @@
+//! What an exact run keeps: its phases, from which everything else is read.
+
+mod accounts;
+mod contact;
+mod projection;
+
+use super::advance::Certificate;
+use super::phase::{Phase, Phases, Workspace};
+use crate::energy::{self, Ledger};
+use crate::impacts::Impact;
+use crate::law::{Law, State};
+use crate::number::{Instructions, Vectorised, dispatch};
+use crate::problem::Problem;
+use accounts::{Accounts, Ledgers, Settlement};
+use contact::ContactReader;
+use projection::Projection;
+use std::sync::OnceLock;
+
+/// The phases of a run.
+#[derive(Debug, Clone)]
+pub struct PhaseRecord {
+    phases: Phases,
+    duration: f64,
+    certificate: Certificate,
+    accounts: OnceLock<Accounts>,
+}
+
+/// Position and velocity of all modes.
+struct Motion {
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
+/// Phases that are tried one by one before all are searched.
+const NEARBY: usize = 4;
+
+impl Drop for PhaseRecord {
+    fn drop(&mut self) {
+        self.phases.leave();
+    }
+}
+
+impl PhaseRecord {
+    pub(crate) fn new(phases: Phases, duration: f64, certificate: Certificate) -> Self {
+        Self {
+            phases,
+            duration,
+            certificate,
+            accounts: OnceLock::new(),
+        }
+    }
+
+    /// Cells that the walk looked at.
+    pub fn cells(&self) -> usize {
+        self.certificate.cells
+    }
+
+    /// Bound of what the walk could have missed for rounding, in m.
+    pub fn missed_penetration(&self) -> f64 {
+        self.certificate.missed
+    }
+
+    /// The number of the phase at a time: the last one that has started.
+    pub fn phase_at(&self, time: f64) -> usize {
+        self.phases.list.partition_point(|p| p.start <= time).max(1) - 1
+    }
+
+    /// The same, looked for from a phase on: times mostly come in order.
+    #[inline(always)]
+    fn phase_from(&self, number: usize, time: f64) -> usize {
+        let list = &self.phases.list;
+        for candidate in number..list.len().min(number + NEARBY) {
+            let after = list.get(candidate + 1).map_or(f64::INFINITY, |p| p.start);
+            if list[candidate].start <= time && time < after {
+                return candidate;
+            }
+        }
+        self.phase_at(time)
+    }
+
+    /// Shows modal displacement, velocity and law states at each time.
+    pub(crate) fn visit(&self, times: &[f64], modes: usize, see: &mut See<'_>) {
+        dispatch(Visit {
+            record: self,
+            times,
+            modes,
+            see,
+        });
+    }
+
+    /// A time derivative (0, 1 or 2) of one linear combination of the modal coordinates.
+    pub(crate) fn project(&self, row: &[f64], times: &[f64], order: usize) -> Vec<f64> {
+        dispatch(Projection {
+            record: self,
+            row,
+            times,
+            order,
+        })
+    }
+
+    /// The energy ledger at each time.
+    pub(crate) fn ledgers<L: Law>(&self, problem: &Problem<L>, times: &[f64]) -> Vec<Ledger> {
+        dispatch(Ledgers {
+            record: self,
+            problem,
+            times,
+        })
+    }
+
+    /// Largest imbalance at the switches and at the end, relative to the largest energy.
+    pub(crate) fn energy_residual<L: Law>(&self, problem: &Problem<L>) -> f64 {
+        energy::residual(self.accounts(problem).ledgers.iter())
+    }
+
+    fn accounts<L: Law>(&self, problem: &Problem<L>) -> &Accounts {
+        self.accounts.get_or_init(|| {
+            dispatch(Settlement {
+                record: self,
+                problem,
+            })
+        })
+    }
+
+    #[inline(always)]
+    fn motion_in<I: Instructions, L: Law>(
+        &self,
+        problem: &Problem<L>,
+        phase: Phase,
+        t: f64,
+        work: &mut Workspace,
+    ) -> Motion {
+        let modes = problem.system.modes();
+        let mut motion = Motion {
+            q: vec![0.0; modes],
+            v: vec![0.0; modes],
+        };
+        self.phases
+            .motion::<I>(phase, t, work, &mut motion.q, &mut motion.v);
+        motion
+    }
+
+    /// Impacts of one law.
+    pub(crate) fn impacts<L: Law>(&self, problem: &Problem<L>, law: usize) -> Vec<Impact> {
+        ContactReader::new(self, problem, law).impacts()
+    }
+}
+
+/// Is shown modal displacement, velocity and law states.
+pub(crate) type See<'a> = dyn FnMut(&[f64], &[f64], &[State]) + 'a;
+
+struct Visit<'a, 'b> {
+    record: &'a PhaseRecord,
+    times: &'a [f64],
+    modes: usize,
+    see: &'a mut See<'b>,
+}
+
+impl Vectorised for Visit<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<I: Instructions>(self) {
+        let phases = &self.record.phases;
+        let mut work = Workspace::default();
+        let (mut q, mut v) = (vec![0.0; self.modes], vec![0.0; self.modes]);
+        for time in self.times {
+            let phase = phases.list[self.record.phase_at(*time)];
+            phases.motion::<I>(phase, time - phase.start, &mut work, &mut q, &mut v);
+            (self.see)(&q, &v, phases.states(phase));
+        }
+    }
+}
