@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import bumpstop as bs
+from bumpstop.report import tables
 from bumpstop.report.outline import outline, view_of
 from bumpstop.report.scene import mode_scene, motion_scene
 
@@ -163,3 +164,50 @@ def test_busy_motions_get_more_frames_within_bounds(
     impacts = len(bouncing.impact_table()["start"])
     assert frames(bouncing, "P") > 20 * impacts
     assert frames(soft, "B") == 1001
+
+
+def test_a_structure_in_space_has_a_depth(portal: bs.ModalBasis) -> None:
+    drawn = outline(portal)
+    assert drawn.spatial
+    scene = mode_scene(portal, drawn)
+    assert scene["points"].shape == (len(drawn.positions), 3)
+    # The axes of the paper are at right angles, so that distances stay.
+    steps, true_steps = (np.diff(each, axis=0) for each in (scene["points"], drawn.positions))
+    np.testing.assert_allclose(
+        np.linalg.norm(steps, axis=1), np.linalg.norm(true_steps, axis=1), atol=1e-12
+    )
+    np.testing.assert_allclose(np.linalg.norm(scene["shapes"], axis=1).max(axis=0), 1.0)
+    feet = scene["points"][[drawn.nodes["foot0"], drawn.nodes["top0"]]]
+    np.testing.assert_allclose(feet[1] - feet[0], 3.0 * scene["vertical"], atol=1e-12)
+    assert [support["kind"] for support in scene["supports"]] == ["clamp"] * 4
+    for support in scene["supports"]:
+        np.testing.assert_allclose(support["normal"], scene["vertical"], atol=1e-12)
+
+
+def test_a_plane_frame_has_none(frame: bs.ModalBasis) -> None:
+    drawn = outline(frame)
+    assert not drawn.spatial
+    scene = mode_scene(frame, drawn)
+    assert scene["points"].shape[1] == 2
+    assert "vertical" not in scene
+
+
+def test_a_roller_in_space_stands_upright_and_torsion_is_not_seen() -> None:
+    beam = bs.Beam("AB", nodes=("A", "B"), elements=4, material=STEEL, section=BAR)
+    structure = bs.Structure(
+        nodes={"A": (0, 0, 0), "B": (0.1, 0, 0)},
+        beams=[beam],
+        supports=[
+            bs.Support(nodes="A", fixed=("dx", "dy", "dz", "drx")),
+            bs.Support(nodes="B", fixed=("dy", "dz")),
+        ],
+    )
+    basis = bs.ModalBasis.from_structure(structure, modes=12)
+    drawn = outline(basis)
+    assert 0 < drawn.seen.count(False) < 12
+    scene = mode_scene(basis, drawn)
+    roller = next(each for each in scene["supports"] if each["kind"] == "roller")
+    np.testing.assert_allclose(roller["normal"], scene["vertical"], atol=1e-12)
+    rows = tables.modes(basis, drawn.seen)
+    hidden = drawn.seen.index(False)
+    assert rows[hidden]["title"].endswith(" Hz, rotations alone, which lines do not show")

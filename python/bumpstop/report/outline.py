@@ -16,13 +16,16 @@ if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["Outline", "outline", "view_of"]
+__all__ = ["UNSEEN", "Outline", "outline", "view_of"]
 
 POINTS_A_BEAM = 80
 """Points along a beam, about: the curve between its nodes is that of the shape functions."""
 
 MOST_POINTS = 2000
 """Points of all beams together; it keeps the page small."""
+
+UNSEEN = 1e-9
+"""A mode that moves points by less than this, relative to the others, does so by rounding."""
 
 _AXES = ("dx", "dy", "dz")
 
@@ -55,6 +58,13 @@ class Outline:
     def spatial(self) -> bool:
         """Whether no global plane holds the structure and its motion."""
         return _plane(self.positions, np.abs(self.shapes).max(axis=(0, 2))) is None
+
+    @property
+    def seen(self) -> list[bool]:
+        """Whether each mode moves a point; one that only twists beams moves none."""
+        travel = np.abs(self.shapes).max(axis=(0, 1))
+        limit = UNSEEN * max(float(travel.max()), np.finfo(float).tiny)
+        return [bool(moved) for moved in travel > limit]
 
 
 def outline(basis: ModalBasis, extra: Iterable[str] = ()) -> Outline:

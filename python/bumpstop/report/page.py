@@ -121,7 +121,7 @@ def _viewers(bases: Sequence[_SharedBasis]) -> list[dict[str, Any]]:
         {
             "id": shared.identity,
             "variants": ", ".join(shared.variants) if len(bases) > 1 else "",
-            "rows": tables.modes(shared.basis),
+            "rows": tables.modes(shared.basis, shared.drawing.seen),
             "remarks": [*rigid_modes_told(shared.basis), *remarks(shared.basis)],
             "turns": shared.drawing.spatial,
         }

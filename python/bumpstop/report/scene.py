@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bumpstop.report.outline import view_of
+from bumpstop.report.outline import UNSEEN, view_of
 from bumpstop.report.scales import scale_for, with_unit
 from bumpstop.report.words import unit_of
 from bumpstop.structure.drawn import DrawnModel
@@ -90,7 +90,7 @@ def mode_scene(basis: ModalBasis, drawing: Outline) -> dict[str, Any]:
     shapes = drawn["shapes"]
     largest = np.linalg.norm(shapes, axis=1).max(axis=0)
     # A mode that the view does not show stays a straight line instead of amplified rounding.
-    visible = largest > 1e-9 * max(float(largest.max()), np.finfo(float).tiny)
+    visible = largest > UNSEEN * max(float(largest.max()), np.finfo(float).tiny)
     drawn["shapes"] = shapes / np.where(visible, largest, np.inf)
     return drawn | ({"vertical": view[:, 2]} if drawing.spatial else {})
 
@@ -140,7 +140,7 @@ def _supports(
         # A roller's ground lies across the direction that it holds, a wall across its beam.
         normal = np.eye(len(view))[1]
         if kind == "roller":
-            normal = view[:, held_axes[0]]
+            normal = view[:, max(held_axes, key=lambda axis: abs(view[1, axis]))]
         elif kind == "clamp":
             normal = _away_from(drawing, view, place)
         drawn.append({"point": place, "kind": kind, "normal": normal})

@@ -228,8 +228,11 @@ def impacts(response: Response) -> dict[str, Any]:
     return {"columns": columns, "rows": rows, "more": f"{more:,}" if more else ""}
 
 
-def modes(basis: ModalBasis) -> list[dict[str, str]]:
-    """Return frequency in Hz and damping of each mode, and a title that tells it."""
+def modes(basis: ModalBasis, seen: Sequence[bool] | None = None) -> list[dict[str, str]]:
+    """Return frequency in Hz and damping of each mode, and a title that tells it.
+
+    The title of a mode that is not `seen`, as it moves no point, says so.
+    """
     told = zip(basis.frequencies.tolist(), basis.damping_ratio.tolist(), strict=True)
     rows = []
     for number, (hertz, ratio) in enumerate(told):
@@ -239,6 +242,8 @@ def modes(basis: ModalBasis) -> list[dict[str, str]]:
         if hertz <= 0.0:
             frequency = title = "rigid" if hertz == 0.0 else "unstable"
             damping = "–"
+        if seen is not None and not seen[number]:
+            title += ", rotations alone, which lines do not show"
         rows.append(
             {
                 "frequency": frequency,
