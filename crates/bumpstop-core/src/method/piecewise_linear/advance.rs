@@ -6,12 +6,8 @@ use super::phase::{Phase, Phases};
 use super::rows::{ComplexBlock, RealBlock};
 use super::signal::{Instant, Signal};
 use super::spectrum::Spectrum;
-use super::tables::{Level, Tables};
+use super::tables::{CELLS_BETWEEN_ANCHORS, Level, Tables};
 use crate::number::{Instructions, Lanes, Number};
-
-/// Cells after which the exponentials are computed afresh, so that products do not pile up
-/// rounding; the signals' rounding bound counts on it.
-pub(crate) const CELLS_BETWEEN_ANCHORS: usize = 8;
 
 /// The smallest cell, relative to the time since the start of the phase (or to the typical
 /// period where that is longer): below it nothing can be told from rounding.

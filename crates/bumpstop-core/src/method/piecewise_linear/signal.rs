@@ -1,10 +1,10 @@
 //! A guard along a phase: a polynomial plus exponentials plus special motions.
 
-use super::advance::CELLS_BETWEEN_ANCHORS;
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
 use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
 use super::spectrum::Spectrum;
+use super::tables::CELLS_BETWEEN_ANCHORS;
 use super::view::View;
 use crate::law::Guard;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};

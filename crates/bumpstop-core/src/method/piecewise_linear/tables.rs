@@ -4,6 +4,10 @@ use super::rows::{ComplexBlock, RealBlock};
 use super::spectrum::Spectrum;
 use crate::number::{Instructions, Lanes, Number};
 
+/// Cells after which the exponentials are computed afresh, so that products do not pile up
+/// rounding; the signals' rounding bound counts on it.
+pub(crate) const CELLS_BETWEEN_ANCHORS: usize = 8;
+
 /// Exponentials over half a cell and over a whole one, and what a whole one multiplies sizes with.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Level {
