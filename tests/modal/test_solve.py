@@ -47,3 +47,9 @@ def test_nothing_but_rigid_motions() -> None:
 def test_a_singular_matrix_is_refused() -> None:
     with pytest.raises(ComputationError, match="the stiffness matrix is singular"):
         StaticSolver(sparse([[1.0, -1.0], [-1.0, 1.0]]))
+
+
+def test_nothing_moves_where_rigid_motions_are_all_there_is() -> None:
+    """What is left to solve is a matrix without unknowns."""
+    still = StaticSolver(sparse([[0.0]]), np.ones((1, 1)))
+    np.testing.assert_array_equal(still.solve(np.zeros((1, 2))), np.zeros((1, 2)))

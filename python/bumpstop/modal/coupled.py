@@ -18,7 +18,7 @@ from bumpstop.structure.sparse import SparseMatrix
 
 __all__ = ["FEW", "MOST_COMPLETE", "CoupledModes", "coupled_modes"]
 
-FEW = 400
+FEW = 200
 """So many dofs are solved faster with dense matrices than with sparse ones."""
 MOST_COMPLETE = 5000
 """Most dofs that move together of which all modes can be had: it takes dense matrices."""

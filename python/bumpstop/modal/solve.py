@@ -39,14 +39,13 @@ class StaticSolver:
         if rigid is not None:
             moving[independent_rows(rigid)] = False
         self._moving = np.flatnonzero(moving)
-        self._factor = _factored(stiffness.restricted(self._moving)) if len(self._moving) else None
+        self._factor = _factored(stiffness.restricted(self._moving))
 
     def solve(self, loads: FloatArray) -> FloatArray:
         """Return the displacements (n, m) under loads (n, m)."""
         displacements = np.zeros(loads.shape)
-        if self._factor is not None:
-            inner = np.ascontiguousarray(loads[self._moving])
-            displacements[self._moving] = self._factor.solve(inner)
+        inner = np.ascontiguousarray(loads[self._moving])
+        displacements[self._moving] = self._factor.solve(inner)
         return displacements
 
 

@@ -15,9 +15,15 @@ pub type Matrix = Mat<f64>;
 /// stiff the highest mode is (Parlett, The Symmetric Eigenvalue Problem, section 15.9).
 ///
 /// # Errors
-/// [`Error::SingularMass`], [`Error::TooManyModes`], [`Error::Eigenvalues`].
+/// [`Error::Sizes`], [`Error::SingularMass`], [`Error::TooManyModes`], [`Error::Eigenvalues`],
+/// [`Error::Factorisation`] where a number is not finite.
 pub fn symmetric_modes(stiffness: MatRef<f64>, mass: MatRef<f64>, count: usize) -> Result<Modes> {
     let size = stiffness.nrows();
+    if [stiffness.ncols(), mass.nrows(), mass.ncols()] != [size; 3] {
+        return Err(Error::Sizes {
+            what: "stiffness and mass",
+        });
+    }
     if count > size {
         return Err(Error::TooManyModes {
             asked: count,
@@ -32,10 +38,11 @@ pub fn symmetric_modes(stiffness: MatRef<f64>, mass: MatRef<f64>, count: usize) 
         Some((theta, shapes)) => low_modes(&theta, &shapes, shift, count),
         None => (direct.0, direct.1.subcols(0, count).to_owned()),
     };
-    Ok(Modes {
-        omega2,
-        shapes: normalised(shapes, mass),
-    })
+    let shapes = normalised(shapes, mass);
+    if omega2.iter().any(|w| w.is_nan()) || !shapes.is_all_finite() {
+        return Err(Error::Factorisation);
+    }
+    Ok(Modes { omega2, shapes })
 }
 
 /// Eigenpairs of `A x = lambda B x` in ascending order; `None` where B is not positive definite.
@@ -135,11 +142,16 @@ mod tests {
     }
 
     #[test]
-    fn refuses_a_massless_motion_and_too_many_modes() {
+    fn refuses_what_has_no_modes() {
         let stiffness = Mat::<f64>::identity(2, 2);
         let mass = Mat::from_fn(2, 2, |r, c| if r == 0 && c == 0 { 1.0 } else { 0.0 });
         let refused = symmetric_modes(stiffness.as_ref(), mass.as_ref(), 1);
         assert_eq!(refused.unwrap_err(), Error::SingularMass);
+        let refused = symmetric_modes(stiffness.as_ref(), mass.as_ref().subcols(0, 1), 1);
+        assert!(matches!(refused, Err(Error::Sizes { .. })));
+        let unknown = Scale(f64::NAN) * &stiffness;
+        let refused = symmetric_modes(unknown.as_ref(), stiffness.as_ref(), 1);
+        assert_eq!(refused.unwrap_err(), Error::Factorisation);
         let refused = symmetric_modes(stiffness.as_ref(), stiffness.as_ref(), 3);
         assert!(matches!(refused, Err(Error::TooManyModes { asked: 3, .. })));
     }

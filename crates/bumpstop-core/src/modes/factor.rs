@@ -7,6 +7,7 @@
 use super::dissection::dissection;
 use super::elimination::postordered;
 use super::graph::Graph;
+use super::grouping::{NODE, grouped};
 use crate::error::{Error, Result};
 use crate::sparse::SparseMatrix;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -24,8 +25,11 @@ use std::sync::Arc;
 /// Pivots below this, relative to the diagonal, are rounding.
 pub const NEGLIGIBLE: f64 = 1e-13;
 
-/// Factors of more multiplications are worth the time of looking for a better order.
-const MUCH_WORK: f64 = 1e11;
+/// Factors of more multiplications are worth the time of dissecting the graph of the nodes.
+const MUCH_WORK: f64 = 1e9;
+
+/// Factors of more multiplications are worth the longer time of dissecting that of the unknowns.
+const VERY_MUCH_WORK: f64 = 1e11;
 
 /// Where the entries of a factor stand: the same for all matrices of one pattern.
 #[derive(Debug)]
@@ -35,25 +39,35 @@ pub struct Analysis {
 
 impl Analysis {
     /// Orders the unknowns so that little fills in: by minimum degree, and where that costs much
-    /// by nested dissection, if it is the better of the two.
+    /// by nested dissection, if it is the better of the two. What is dissected is the graph of
+    /// groups of unknowns, which is small, or, where this does not help, that of each.
     ///
     /// # Errors
     /// [`Error::Memory`].
     pub fn new(starts: &[usize], rows: &[usize]) -> Result<Self> {
-        let analysis = Self::ordered(starts, rows, SymmetricOrdering::Amd)?;
-        if analysis.work() < MUCH_WORK {
-            return Ok(analysis);
+        let by_degree = Self::ordered(starts, rows, SymmetricOrdering::Amd)?;
+        let work = by_degree.work();
+        for (least, largest) in [(MUCH_WORK, NODE), (VERY_MUCH_WORK, 1)] {
+            if work < least {
+                break;
+            }
+            let dissected = Self::dissected(starts, rows, largest)?;
+            if dissected.work() < work {
+                return Ok(dissected);
+            }
         }
-        let dissected = Self::dissected(starts, rows)?;
-        Ok(if dissected.work() < analysis.work() {
-            dissected
-        } else {
-            analysis
-        })
+        Ok(by_degree)
     }
 
-    fn dissected(starts: &[usize], rows: &[usize]) -> Result<Self> {
-        let order = postordered(starts, rows, &dissection(Graph::of(starts, rows)));
+    /// Dissects the graph of groups of up to `largest` unknowns.
+    fn dissected(starts: &[usize], rows: &[usize], largest: usize) -> Result<Self> {
+        let bounds = grouped(starts, rows, largest);
+        let groups = dissection(Graph::of(starts, rows, &bounds));
+        let order: Vec<usize> = groups
+            .into_iter()
+            .flat_map(|group| bounds[group]..bounds[group + 1])
+            .collect();
+        let order = postordered(starts, rows, &order);
         let mut inverse = vec![0; order.len()];
         for (place, &unknown) in order.iter().enumerate() {
             inverse[unknown] = place;
@@ -81,7 +95,9 @@ impl Analysis {
 
     /// Number of multiplications that a factor takes.
     fn work(&self) -> f64 {
-        let supernodes = self.supernodes();
+        let Some(supernodes) = self.supernodes() else {
+            return 0.0;
+        };
         let (first, last) = (supernodes.supernode_begin(), supernodes.supernode_end());
         let pattern = supernodes.col_ptr_for_row_idx();
         let work = |s: usize| -> f64 {
@@ -92,10 +108,11 @@ impl Analysis {
         (0..supernodes.n_supernodes()).map(work).sum()
     }
 
-    fn supernodes(&self) -> &SymbolicSupernodalCholesky<usize> {
+    /// They are always asked for; a matrix without unknowns has none all the same.
+    fn supernodes(&self) -> Option<&SymbolicSupernodalCholesky<usize>> {
         match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Supernodal(supernodes) => supernodes,
-            SymbolicCholeskyRaw::Simplicial(_) => unreachable!("supernodes are asked for"),
+            SymbolicCholeskyRaw::Supernodal(supernodes) => Some(supernodes),
+            SymbolicCholeskyRaw::Simplicial(_) => None,
         }
     }
 }
@@ -207,6 +224,9 @@ impl Factor {
     /// # Errors
     /// [`Error::Memory`].
     pub fn solve(&self, rhs: MatMut<f64>) -> Result<()> {
+        if self.size() == 0 {
+            return Ok(());
+        }
         let symbolic = &self.analysis.symbolic;
         let needed = symbolic.solve_in_place_scratch::<f64>(rhs.ncols(), Par::Seq);
         let mut scratch = MemBuffer::try_new(needed).map_err(|_| Error::Memory)?;
@@ -234,7 +254,9 @@ impl Factor {
 
     fn read_pivots(&mut self, sizes: &[f64]) -> Result<()> {
         let analysis = Arc::clone(&self.analysis);
-        let supernodes = analysis.supernodes();
+        let Some(supernodes) = analysis.supernodes() else {
+            return Ok(());
+        };
         for s in 0..supernodes.n_supernodes() {
             let (first, last) = (
                 supernodes.supernode_begin()[s],
@@ -328,15 +350,23 @@ mod tests {
     #[test]
     fn dissection_of_a_grid_saves_work() {
         let (starts, rows) = grid(16);
-        let order = dissection(Graph::of(&starts, &rows));
-        let mut sorted = order.clone();
-        sorted.sort_unstable();
-        assert!(sorted.into_iter().eq(0..16 * 16 * 16));
+        let each: Vec<usize> = (0..starts.len()).collect();
+        let mut order = dissection(Graph::of(&starts, &rows, &each));
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..16 * 16 * 16));
         let by_degree = Analysis::ordered(&starts, &rows, SymmetricOrdering::Amd).unwrap();
-        let dissected = Analysis::dissected(&starts, &rows).unwrap();
+        let dissected = Analysis::dissected(&starts, &rows, 1).unwrap();
         let natural = Analysis::ordered(&starts, &rows, SymmetricOrdering::Identity).unwrap();
         assert!(dissected.work() < 0.5 * natural.work());
         assert!(dissected.work() < 1.1 * by_degree.work());
+    }
+
+    #[test]
+    fn a_matrix_without_unknowns_has_a_factor() {
+        let empty = SparseMatrix::from_triplets((0, 0), &[], &[], &[]).unwrap();
+        let factor = Factor::of(&empty).unwrap();
+        assert_eq!((factor.negative, factor.singularity()), (0, None));
+        factor.solved(faer::Mat::zeros(0, 2).as_mut()).unwrap();
     }
 
     #[test]

@@ -16,19 +16,32 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The graph of a symmetric pattern in compressed columns.
-    pub fn of(starts: &[usize], rows: &[usize]) -> Self {
-        let size = starts.len() - 1;
-        let mut graph = Self::empty(rows.len());
-        for vertex in 0..size {
-            let column = &rows[starts[vertex]..starts[vertex + 1]];
-            graph
-                .ends
-                .extend(column.iter().filter(|&&row| row != vertex));
-            graph.starts.push(graph.ends.len());
+    /// The graph of a symmetric pattern in compressed columns, a vertex for each group of
+    /// consecutive unknowns; `bounds` tells where groups start, and the number of unknowns.
+    pub fn of(starts: &[usize], rows: &[usize], bounds: &[usize]) -> Self {
+        let mut group = vec![0; starts.len() - 1];
+        for (number, ends) in bounds.windows(2).enumerate() {
+            group[ends[0]..ends[1]].fill(number);
         }
-        graph.strengths = vec![1; graph.ends.len()];
-        graph.weights = vec![1; size];
+        let mut graph = Self::empty(0);
+        let mut place = vec![usize::MAX; bounds.len() - 1];
+        for (number, ends) in bounds.windows(2).enumerate() {
+            let begin = graph.ends.len();
+            for &row in &rows[starts[ends[0]]..starts[ends[1]]] {
+                let end = group[row];
+                if end == number {
+                    continue;
+                }
+                if place[end] == usize::MAX || place[end] < begin {
+                    place[end] = graph.ends.len();
+                    graph.ends.push(end);
+                    graph.strengths.push(0);
+                }
+                graph.strengths[place[end]] += 1;
+            }
+            graph.starts.push(graph.ends.len());
+            graph.weights.push(ends[1] - ends[0]);
+        }
         graph
     }
 

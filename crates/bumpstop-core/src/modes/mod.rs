@@ -9,6 +9,7 @@ mod dissection;
 mod elimination;
 pub mod factor;
 mod graph;
+mod grouping;
 mod lanczos;
 pub mod pencil;
 pub mod selection;

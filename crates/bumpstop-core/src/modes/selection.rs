@@ -59,12 +59,17 @@ pub struct Selected {
 ///
 /// # Errors
 /// [`Error::TooManyModes`], [`Error::Eigenvalues`], [`Error::Uncertain`], [`Error::Singular`],
-/// [`Error::IndefiniteMass`], [`Error::Memory`], [`Error::Factorisation`].
+/// [`Error::Sizes`], [`Error::IndefiniteMass`], [`Error::Memory`], [`Error::Factorisation`].
 pub fn selected_modes(
     pencil: &Pencil,
     rigid: MatRef<f64>,
     selection: Selection,
 ) -> Result<Selected> {
+    if rigid.nrows() != pencil.size() {
+        return Err(Error::Sizes {
+            what: "the matrices and the rigid motions",
+        });
+    }
     let search = Search { pencil, rigid };
     match selection {
         Selection::Lowest(count) => search.lowest(count),
