@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case import Case, load_case
     from bumpstop.io.matrices import read_matrices, write_matrices
     from bumpstop.io.meshes import read_mesh
-    from bumpstop.io.modes import read_modes
+    from bumpstop.io.modes import identify_modes, read_modes
     from bumpstop.laws.obstacle import Plane
     from bumpstop.laws.stop import Stop
     from bumpstop.loads.force import NodalForce
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.modal.certificate import SturmCount
     from bumpstop.modal.damping import RayleighDamping, StructuralDamping
+    from bumpstop.modal.frequency_response import FrequencyResponse
     from bumpstop.modal.masses import Participation, generalised_mass, participation
     from bumpstop.modal.oscillation import ComplexModes, complex_modes
     from bumpstop.modal.rotor import Campbell, campbell
@@ -72,6 +73,7 @@ __all__ = [
     "ComplexModes",
     "Component",
     "ComputationError",
+    "FrequencyResponse",
     "Gauge",
     "GeneralSection",
     "Gravity",
@@ -112,6 +114,7 @@ __all__ = [
     "craig_bampton",
     "free_interface",
     "generalised_mass",
+    "identify_modes",
     "load_case",
     "participation",
     "read_matrices",
@@ -133,6 +136,7 @@ _HOME = {
     "ComplexModes": "modal.oscillation",
     "Component": "modal.substructure.component",
     "ComputationError": "errors",
+    "FrequencyResponse": "modal.frequency_response",
     "Gauge": "structure.gauge",
     "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
@@ -173,6 +177,7 @@ _HOME = {
     "craig_bampton": "modal.substructure.craig_bampton",
     "free_interface": "modal.substructure.free_interface",
     "generalised_mass": "modal.masses",
+    "identify_modes": "io.modes",
     "load_case": "io.case",
     "participation": "modal.masses",
     "read_matrices": "io.matrices",

@@ -18,6 +18,9 @@ from bumpstop.io import read_mesh, read_modes
 from bumpstop.io.matrices.dof_map import read_dof_map
 from bumpstop.io.matrices.read import read_matrix
 
+from ..modal.measured_chain import chain
+from .modes.test_functions import written
+
 MATRIX = np.array([[2.0, -1.0, 0.0], [-1.0, 3.0, 0.5], [0.0, 0.5, 4.0]])
 TEXTS: dict[str, tuple[str, Callable[[Path], object]]] = {
     "text.op4": (
@@ -65,6 +68,10 @@ def write_modes(file: Path) -> None:
     np.savez(file, frequency=np.array([3.0]), shapes=np.array([[1.0]]), **names)  # type: ignore[arg-type]  # numpy takes every name for an option
 
 
+def write_functions(file: Path) -> None:
+    written(file, chain(2).functions(frequency=np.linspace(1.0, 70.0, 40)))
+
+
 def write_med(file: Path) -> None:
     with h5py.File(file, "w") as made:
         mesh = made.create_group("ENS_MAA/frame/step")
@@ -77,6 +84,7 @@ WRITTEN: dict[str, tuple[Callable[[Path], None], Callable[[Path], object]]] = {
     "numpy.npy": (write_npy, read_matrix),
     "nist.mtx": (write_mtx, read_matrix),
     "modes.npz": (write_modes, read_modes),
+    "functions.uff": (write_functions, read_modes),
     "mesh.med": (write_med, read_mesh),
 }
 

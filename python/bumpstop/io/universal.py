@@ -7,6 +7,8 @@ number.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import accumulate, pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -33,17 +35,26 @@ class DataSet(NamedTuple):
             raise InputError(what, key=f"line {self.line + len(self.lines)}")
         return self.lines[index]
 
-    def integers(self, index: int, least: int) -> list[int]:
-        """Return the whole numbers of a line, in fields of ten characters."""
-        return [int(number) for number in self._numbers(index, 10, least, whole=True)]
+    def integers(self, index: int, least: int, *, end: int | None = None) -> list[int]:
+        """Return the whole numbers of a line up to a column, in fields of ten characters."""
+        text = self.text(index)[:end]
+        return [int(number) for number in self._numbers(index, _cut(text, 10), least, whole=True)]
 
-    def reals(self, index: int, least: int, width: int = 13) -> list[float]:
-        """Return the real numbers of a line, in fields of a width."""
-        return self._numbers(index, width, least, whole=False)
+    def reals(self, index: int, least: int, width: int = 13, *, start: int = 0) -> list[float]:
+        """Return the real numbers of a line from a column on, in fields of a width."""
+        fields = _cut(self.text(index)[start:], width)
+        return self._numbers(index, fields, least, whole=False)
 
-    def _numbers(self, index: int, width: int, least: int, *, whole: bool) -> list[float]:
+    def fields(self, index: int, widths: Sequence[int]) -> list[float]:
+        """Return the real numbers of a line, in fields of these widths, as far as it goes."""
         text = self.text(index)
-        fields = [text[start : start + width] for start in range(0, len(text), width)]
+        ends = [*accumulate(widths, initial=0)]
+        fields = [text[start:end] for start, end in pairwise(ends) if start < len(text)]
+        return self._numbers(index, fields, 1, whole=False)
+
+    def _numbers(
+        self, index: int, fields: Sequence[str], least: int, *, whole: bool
+    ) -> list[float]:
         try:
             numbers = [_number(field, whole=whole) for field in fields]
         except ValueError:
@@ -51,8 +62,12 @@ class DataSet(NamedTuple):
         if len(numbers) < least:
             place = f"line {self.line + index}"
             what = f"data set {self.number} cannot be read here"
-            raise InputError(what, key=place, value=text)
+            raise InputError(what, key=place, value=self.text(index))
         return numbers
+
+
+def _cut(text: str, width: int) -> list[str]:
+    return [text[start : start + width] for start in range(0, len(text), width)]
 
 
 def _number(field: str, *, whole: bool) -> float:

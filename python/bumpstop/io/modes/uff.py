@@ -1,5 +1,7 @@
 """Modes from universal files (.uff, .unv): data sets 55, in the units of data set 164.
 
+Where there are none, modes are identified from measured functions, data sets 58.
+
 Real modes (analysis type 2) are taken as they are. Complex ones (types 3 and 7) are taken where all
 their points move in phase, as far as ``IN_PHASE`` allows; the frequency is then the size of the
 eigenvalue and the modal mass follows from modal A = 2 i omega_d m.
@@ -17,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bumpstop.errors import InputError
+from bumpstop.io.modes.given import refuse_identification
 from bumpstop.io.modes.mode_set import ModeSet
 from bumpstop.io.reading import in_file
 from bumpstop.io.universal import DataSet, Units, data_sets, file_units
@@ -39,25 +42,38 @@ class _Mode(NamedTuple):
     components: dict[Dof, float]
 
 
-def read_universal_modes(path: Path) -> ModeSet:
+def read_universal_modes(
+    path: Path, band: tuple[float, float] | None = None, count: int | None = None
+) -> ModeSet:
     """Read the modes of a universal file. Nodes are called by their numbers.
 
     Raises
     ------
     InputError
-        If the file cannot be read, is truncated, holds no mode, or a mode is complex.
+        If the file cannot be read, is truncated, holds no mode, or a mode is complex; if a
+        band or count is given but it holds modes; or if modes cannot be identified.
     """
     with in_file(path):
         found = data_sets(path)
         modes = [_mode(data) for data in found if data.number == 55]
         taken = [mode for mode in modes if mode is not None]
         if not taken:
-            numbers = ", ".join(str(number) for number in sorted({data.number for data in found}))
-            hint = f"modes are data sets 55, and it has {numbers}"
-            if any(data.number == 58 for data in found):
-                hint += "; identify the modes of its measured functions first"
-            raise InputError("holds no mode", hint=hint)
+            return _identified(found, band, count)
+        refuse_identification(band, count)
         return _mode_set(taken, file_units(found))
+
+
+def _identified(
+    found: list[DataSet], band: tuple[float, float] | None, count: int | None
+) -> ModeSet:
+    if all(data.number != 58 for data in found):
+        numbers = ", ".join(str(number) for number in sorted({data.number for data in found}))
+        hint = f"modes are data sets 55, measured functions 58, and it has {numbers}"
+        raise InputError("holds no mode", hint=hint)
+    from bumpstop.io.modes.functions import measured_functions
+    from bumpstop.io.modes.identify import identify_modes
+
+    return identify_modes(measured_functions(found, file_units(found)), band=band, count=count)
 
 
 def _mode_set(modes: list[_Mode], units: Units) -> ModeSet:

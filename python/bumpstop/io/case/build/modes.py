@@ -38,7 +38,7 @@ def built_modes(case: CaseFile, table: ModesTable, folder: Path) -> ModalBasis:
             hint = "leave it out: modes from a file have none"
             raise InputError("needs a structure", key=f"basis.{key}", hint=hint)
     with keyed("modes"):
-        given = read_modes(folder / table.file)
+        given = read_modes(folder / table.file, band=table.band, count=table.count)
     with keyed(renamed=_KEYS):
         return given.basis(
             modes=case.basis.modes,

@@ -18,7 +18,7 @@ from bumpstop.modal.selection import (
     ModesInBand,
 )
 
-__all__ = ["Modes"]
+__all__ = ["Band", "Modes"]
 
 _FREQUENCY = Dimension("a frequency", "Hz", "120 Hz")
 
@@ -40,7 +40,7 @@ def _read_table(table: Mapping[str, Any]) -> ModeSelection:
         for key in ("around", "count"):
             if key in table:
                 raise InputError("excludes band", key=key, value=table[key])
-        return read_at("band", _read_band, table["band"])
+        return ModesInBand(*read_at("band", _read_band, table["band"]))
     for key in ("around", "count"):
         if key not in table:
             hint = "give { band = [0, 500] } or { around = 120, count = 5 }"
@@ -51,11 +51,11 @@ def _read_table(table: Mapping[str, Any]) -> ModeSelection:
     )
 
 
-def _read_band(value: object) -> ModesInBand:
+def _read_band(value: object) -> tuple[float, float]:
     low, high = read_list(value, _read_frequency, "frequencies", 2)
     if high <= low:
         raise InputError("must end above its start", value=value)
-    return ModesInBand(low, high)
+    return low, high
 
 
 def _read_count(value: object) -> int:
@@ -88,4 +88,5 @@ _SCHEMA: dict[str, Any] = {
     "examples": [10],
 }
 
+Band = Annotated[tuple[float, float], Plain(_read_band, _BAND)]
 Modes = Annotated[ModeSelection, Plain(_read_modes, _SCHEMA)]
