@@ -16,6 +16,8 @@ REWRITTEN = [
     # \frac12 is one half.
     (re.compile(r"\\([td]?frac)\s*(\d)\s*(\d)"), r"\\\1{\2}{\3}"),
     (re.compile(r"\\([td]?frac)\s*(\d)"), r"\\\1{\2}"),
+    # docutils would draw the accent of a bold symbol over what follows.
+    (re.compile(r"\\boldsymbol\s*(\\[A-Za-z]+)"), r"\\mathbf{\1}"),
     # An index of an accented letter stands beside it, not below.
     (re.compile(r"(\\(?:d?dot|hat|tilde|bar)\s*(?:\{[^{}]*\}|\\?[A-Za-z]+))(?=[_^])"), r"\1{}"),
 ]

@@ -32,7 +32,7 @@ def read_abaqus(path: Path) -> FileMatrix:
         If the file cannot be read, or a line has not three or five numbers.
     """
     with in_file(path):
-        numbers = _numbers(read_lines(path, "a matrix of Abaqus"))
+        numbers = _numbers(read_lines(path, "a matrix"))
         if numbers.shape[1] == _COORDINATE:
             return FileMatrix(_by_place(numbers))
         labels = [(int(node), int(dof)) for node, dof in numbers[:, :4].reshape(-1, 2)]
