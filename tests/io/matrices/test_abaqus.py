@@ -44,7 +44,7 @@ def test_coordinates(tmp_path: Path) -> None:
 
 
 REFUSED = {
-    "": "is empty",
+    "": "is empty, but should be a matrix$",
     "** nothing\n": "holds no entry",
     "1,1,1,1\n": "line 1: is no entry",
     "1,1,1,1,2.\n2,1,1,1\n": "line 2: is no entry",
