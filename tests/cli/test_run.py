@@ -53,6 +53,7 @@ def test_summary(call: Output) -> None:
     assert row[2].startswith("-0.00495")
     assert row[3:] == ["0.67", "%", "0.8", "%", "yes"]
     assert output.count("all 12 checks passed") == 2
+    assert output.count("  1 rigid mode: rotation about z through A\n") == 2
     assert output.count("method symplectic_euler, 2,000 steps, 1 event, 1 impact") == 2
 
 
@@ -85,8 +86,10 @@ def test_json(call: Output) -> None:
             "energy_residual",
             "solve_seconds",
             "references",
+            "remarks",
             "passed",
         }
+        assert variant["remarks"] == ["1 rigid mode: rotation about z through A"]
         assert (variant["method"], variant["passed"]) == ("symplectic_euler", True)
         assert (variant["steps"], variant["events"], variant["impacts"]) == (2000, 1, 1)
         assert (variant["certified_steps"], variant["missed_penetration"]) == (None, None)

@@ -194,7 +194,7 @@ def test_pieces_apart_have_their_own_rigid_modes() -> None:
         masses=[PointMass("ball", node="P", mass=4.0)],
         supports=[IN_PLANE, HINGE, Support(nodes="P", fixed=("drz",))],
     )
-    basis = ModalBasis.from_structure(structure, modes=4)
+    basis = ModalBasis.from_structure(structure, modes=4, rigid_modes=2)
     assert list(basis.omega2 == 0.0) == [True, True, False, False]
     np.testing.assert_array_equal(basis.row("P", "dy"), [0.0, 0.5, 0.0, 0.0])
     assert basis.row("B", "dy")[1] == 0.0

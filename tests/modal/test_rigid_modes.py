@@ -12,6 +12,7 @@ from bumpstop import (
     Beam,
     InputError,
     Material,
+    Matrices,
     ModalBasis,
     PointMass,
     Rectangle,
@@ -96,6 +97,58 @@ def test_a_piece_that_moves_as_a_whole_needs_no_announcement() -> None:
     basis = ModalBasis.from_structure(hinged, modes=2)
     assert basis.rigid_modes == ("rotation about z through A",)
     assert ModalBasis.from_structure(hinged, modes=2, rigid_modes=1).omega2[0] == 0.0
+
+
+def two_beams(*supports: Support) -> Structure:
+    return Structure(nodes=chain().nodes, beams=chain().beams, supports=[PLANE, *supports])
+
+
+def test_a_loose_piece_beside_others_is_refused_by_its_nodes() -> None:
+    expected = (
+        r"^rigid_modes: a loose piece: C, D and 3 more, free in translation along x; "
+        r"translation along y; rotation about z; join it by a part \(a stop is none\), hold it, "
+        r"or say rigid_modes = 3 if it is meant to move$"
+    )
+    with pytest.raises(InputError, match=expected):
+        ModalBasis.from_structure(two_beams(CLAMP), modes=4)
+    basis = ModalBasis.from_structure(two_beams(CLAMP), modes=4, rigid_modes=3)
+    assert basis.rigid_modes[0] == "translation along x of C, D and 3 more"
+    assert basis.remarks[0].startswith("3 rigid modes: translation along x of C, D and 3 more; ")
+    with pytest.raises(InputError, match="2 loose pieces, the first: A, B and 3 more, free in rot"):
+        ModalBasis.from_structure(two_beams(PIN), modes=4)
+
+
+def test_pieces_that_are_held_need_no_joint() -> None:
+    both = two_beams(CLAMP, Support(nodes="C", fixed=DOFS))
+    assert ModalBasis.from_structure(both, modes=2).rigid_modes == ()
+
+
+def test_a_loose_part_of_an_assembly_is_refused_by_its_nodes() -> None:
+    bay = Structure(nodes={"A": (0, 0, 0), "B": (1, 0, 0)}, beams=chain().beams[:1])
+    reduced = craig_bampton(Component(bay, interface=["A", "B"]), modes=4)
+    apart = Assembly(
+        parts={"left": Placed(reduced), "right": Placed(reduced, at=(1, 0, 0))},
+        supports=[Support(nodes="left.A", fixed=DOFS)],
+    )
+    with pytest.raises(InputError, match=r"a loose piece: right\.A, .*say rigid_modes = 6 "):
+        ModalBasis.from_structure(apart, modes=3)
+
+
+def test_imported_matrices_are_held_to_the_same() -> None:
+    """Three masses in a row: joined, with one apart, and with two that nothing can join."""
+    dofs = [("P", "dx"), ("Q", "dx"), ("R", "dx")]
+    joined = np.array([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])
+    free = ModalBasis.from_structure(Matrices(stiffness=joined, mass=np.eye(3), dofs=dofs), modes=1)
+    assert free.rigid_modes == ("translation along x",)
+    apart = np.array([[2.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+    model = Matrices(stiffness=apart, mass=np.eye(3), dofs=dofs)
+    with pytest.raises(InputError, match="a loose piece: R, free in translation along x; join"):
+        ModalBasis.from_structure(model, modes=1)
+    assert ModalBasis.from_structure(model, modes=1, rigid_modes=1).omega2[0] == 0.0
+    odd = np.array([[1.0, -2.0, 0.0], [-2.0, 4.0, 0.0], [0.0, 0.0, 1.0]])  # P moves twice as Q
+    model = Matrices(stiffness=odd, mass=np.eye(3), dofs=dofs)
+    with pytest.raises(InputError, match=r"a mechanism: motion of P\.dx, Q\.dx; give positions"):
+        ModalBasis.from_structure(model, modes=1)
 
 
 def test_modes_from_elsewhere_know_no_rigid_modes() -> None:

@@ -209,7 +209,48 @@ def test_positions_unknown() -> None:
         mass=[[2.0, 0.0], [0.0, 3.0]],
         dofs=[("P", "dx"), ("Q", "dx")],
     )
-    assert [motion.text for motion in free_motions(pair)] == ["motion of P.dx, Q.dx"]
+    (motion,) = free_motions(pair)
+    assert (motion.text, motion.is_mechanism) == ("translation along x", False)
+
+
+def test_what_may_be_a_rotation_is_not_known_without_positions() -> None:
+    """A bar that floats: two dofs across it, and no stiffness against its rotation."""
+    bar = np.array([[1.0, -2.0, 1.0], [-2.0, 4.0, -2.0], [1.0, -2.0, 1.0]])
+    dofs = [("P", "dy"), ("Q", "dy"), ("R", "dy")]
+    floating = Matrices(stiffness=1e4 * bar, mass=np.eye(3), dofs=dofs)
+    assert [motion.is_mechanism for motion in free_motions(floating)] == [False, True]
+    places = {"P": (0, 0, 0), "Q": (1, 0, 0), "R": (2, 0, 0)}
+    placed = Matrices(stiffness=1e4 * bar, mass=np.eye(3), dofs=dofs, positions=places)
+    texts = [motion.text for motion in free_motions(placed)]
+    assert texts == ["translation along y", "rotation about z through P"]
+
+
+def test_a_piece_is_named_where_others_can_move_too() -> None:
+    """A clamped beam and a loose one; the wall that carries a node of its own is no piece."""
+    structure = Structure(
+        nodes={"A": (0, 0, 0), "B": (1, 0, 0), "C": (1, 0, 0), "D": (2, 0, 0), "wall": (0, 1, 0)},
+        beams=[beam("AB"), beam("CD")],
+        supports=[Support(nodes=("A", "wall"), fixed=DOFS)],
+    )
+    motions = free_motions(structure)
+    assert len(motions) == 6
+    assert {motion.piece for motion in motions} == {"C, D and 1 more"}
+    alone = Structure(
+        nodes={"C": (1, 0, 0), "D": (2, 0, 0), "wall": (0, 1, 0)},
+        beams=[beam("CD")],
+        supports=[Support(nodes="wall", fixed=DOFS)],
+    )
+    assert {motion.piece for motion in free_motions(alone)} == {""}
+
+
+def test_a_damper_joins_two_pieces() -> None:
+    pair = Structure(
+        nodes={"P": (0, 0, 0), "Q": (1, 0, 0)},
+        masses=[PointMass(node, node=node, mass=1.0) for node in "PQ"],
+        springs=[Spring("damper", node="P", other="Q", damping=1.0)],
+        supports=[Support(nodes="all", fixed=("dy", "dz", "drx", "dry", "drz"))],
+    )
+    assert [motion.piece for motion in free_motions(pair)] == ["", ""]
 
 
 def test_a_chain_of_many_links() -> None:

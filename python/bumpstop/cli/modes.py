@@ -14,7 +14,7 @@ from bumpstop.modal.basis import ModalBasis, mode_labels
 from bumpstop.modal.masses import generalised_mass, participation
 from bumpstop.modal.oscillation import ComplexModes, complex_modes
 from bumpstop.modal.spin import angular_momentum
-from bumpstop.report.remarks import remarks, rigid_modes_told
+from bumpstop.report.remarks import remarks
 
 __all__ = ["modes_command"]
 
@@ -49,7 +49,7 @@ def modes_command(path: Path, *, json: bool, out: Path | None) -> int:
         if basis.couples:
             print_line("  with the damping and the gyroscopic forces that couple these modes:")
             print_table(_complex_table(basis))
-        for remark in [*rigid_modes_told(basis), *remarks(basis)]:
+        for remark in remarks(basis):
             print_line(f"  {remark}")
     if out is not None:
         print_line()

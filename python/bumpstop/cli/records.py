@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bumpstop.cli.solve import CaseResult, VariantResult
+from bumpstop.modal.basis import ModalBasis
 from bumpstop.post.references import Check
 from bumpstop.response import Response
 
@@ -15,16 +16,19 @@ def case_record(result: CaseResult) -> dict[str, Any]:
     """Return what ``bumpstop run --json`` prints."""
     return {
         "case": result.case.name,
-        "variants": [_variant_record(variant) for variant in result.variants],
+        "variants": [
+            _variant_record(variant, result.case.bases[variant.name]) for variant in result.variants
+        ],
         "passed": result.passed,
     }
 
 
-def _variant_record(variant: VariantResult) -> dict[str, Any]:
+def _variant_record(variant: VariantResult, basis: ModalBasis) -> dict[str, Any]:
     record = {
         "name": variant.name,
         **(_NOTHING_RUN if variant.response is None else _run_record(variant.response)),
         "references": [_check_record(check) for check in variant.checks],
+        "remarks": list(basis.remarks),
         "passed": variant.passed,
     }
     # Last, since everything read before it is a part of the core's time.

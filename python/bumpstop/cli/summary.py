@@ -36,7 +36,7 @@ def print_summary(result: CaseResult, record: dict[str, Any], out: Path | None) 
         for caption, table in _tables(variant):
             print_line(f"  {caption}")
             print_table(table)
-        for line in _told(variant.response, numbers):
+        for line in [*numbers["remarks"], *_told(variant.response, numbers)]:
             print_line(f"  {line}")
         print_line(f"  {verdict(variant.checks)}", style="green" if variant.passed else "bold red")
     if out is not None:

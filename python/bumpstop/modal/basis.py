@@ -17,6 +17,7 @@ from bumpstop.modal.eigen import model_modes
 from bumpstop.modal.given import given_components, given_labels, given_vectors, modal_masses
 from bumpstop.modal.modal_damping import modal_damping, with_companions
 from bumpstop.modal.projected import projected
+from bumpstop.modal.remarks import rigid_told, unstable_told
 from bumpstop.modal.rigid_modes import require_rigid_modes
 from bumpstop.modal.selected import require_modes
 from bumpstop.modal.selection import ModeSelection, mode_selection
@@ -139,7 +140,8 @@ class ModalBasis:
             the canonical form; that of the modes where left out.
         rigid_modes
             How many motions strain nothing, all of them, also beyond the modes asked for. Where
-            left out, connected pieces may move as a whole, but mechanisms are refused.
+            left out, a structure in one piece may move as a whole; mechanisms, and pieces that
+            move while nothing joins them to the others, are refused.
 
         Raises
         ------
@@ -368,8 +370,13 @@ class ModalBasis:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What a user should know of this basis, a sentence each."""
-        return (*self._unstable, *self.dropped, *self.neglected)
+        """What a user should know of this basis, a line each: motions free of strain first."""
+        return (
+            *rigid_told(self.rigid_modes),
+            *unstable_told(self.omega2),
+            *self.dropped,
+            *self.neglected,
+        )
 
     @cached_property
     def rigid_modes(self) -> tuple[str, ...]:
@@ -457,13 +464,6 @@ class ModalBasis:
         # Not BLAS: an instant must have the same bits on any grid.
         given: FloatArray = np.einsum("...n,un->...u", motion, self.coordinates.from_canonical)
         return given
-
-    @property
-    def _unstable(self) -> list[str]:
-        return [
-            f"the structure is unstable in mode {number}: it moves away by itself"
-            for number in np.flatnonzero(self.omega2 < 0.0) + 1
-        ]
 
     @cached_property
     def _rows(self) -> dict[Dof, int]:

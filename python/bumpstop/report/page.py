@@ -11,7 +11,7 @@ from bumpstop.report import tables
 from bumpstop.report.outline import outline
 from bumpstop.report.palette import DARK, LIGHT
 from bumpstop.report.published import published, verdict
-from bumpstop.report.remarks import remarks, rigid_modes_told
+from bumpstop.report.remarks import remarks
 from bumpstop.report.scene import mode_scene
 from bumpstop.report.variant import Variant
 
@@ -122,7 +122,7 @@ def _viewers(bases: Sequence[_SharedBasis]) -> list[dict[str, Any]]:
             "id": shared.identity,
             "variants": ", ".join(shared.variants) if len(bases) > 1 else "",
             "rows": tables.modes(shared.basis, shared.drawing.seen),
-            "remarks": [*rigid_modes_told(shared.basis), *remarks(shared.basis)],
+            "remarks": remarks(shared.basis),
             "turns": shared.drawing.spatial,
         }
         for shared in bases

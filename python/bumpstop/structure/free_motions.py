@@ -1,8 +1,9 @@
-"""What the motions are that strain nothing: in words, and whether they are mechanisms.
+"""What the motions are that strain nothing: in words, of which piece, and whether a mechanism.
 
 Each connected piece of a model may move as a whole: that is a rigid motion, named by its
-direction or axis. What else strains nothing moves parts of a piece against each other: a
-mechanism, named by what turns about what, or by the dofs that move most.
+direction or axis, and by its nodes where it is not the only piece. What else strains nothing
+moves parts of a piece against each other: a mechanism, named by what turns about what, or by
+the dofs that move most.
 """
 
 from __future__ import annotations
@@ -12,7 +13,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray, Vector
 from bumpstop.errors import InputError
@@ -33,27 +33,40 @@ _SAME = 1e-7
 """Motions that differ by less, relative to their size, are the same."""
 
 
+_JOINING = ("stiffness", "mass", "damping", "gyroscopic", "circulatory")
+"""Matrices by which one part is felt by another."""
+
+
 @dataclass(frozen=True)
 class FreeMotion:
     """A motion that strains nothing.
 
     Parameters
     ----------
-    text
-        What moves and how: ``"rotation about z through A"``.
+    how
+        The motion in words: ``"rotation about z through A"``.
     is_mechanism
         Whether it moves parts of a connected piece against each other.
+    piece
+        The nodes of the piece that moves, where others can move beside it and nothing joins
+        them; else nothing.
     """
 
-    text: str
+    how: str
     is_mechanism: bool
+    piece: str = ""
+
+    @property
+    def text(self) -> str:
+        """What moves and how: ``"translation along x of C, D"``."""
+        return f"{self.how} of {self.piece}" if self.piece and not self.is_mechanism else self.how
 
 
 def free_motions(model: LinearModel) -> list[FreeMotion]:
     """Return the motions of a model that strain nothing, rigid motions of whole pieces first.
 
-    What has no place, a node of unknown position or the amplitude of a shape, is not looked
-    at. Motions of such dofs alone are named by what moves most, and not called mechanisms.
+    A piece with a node of unknown position is known to be rigid in translations alone.
+    Amplitudes of shapes are not looked at; what moves them alone counts as a mechanism.
 
     Examples
     --------
@@ -64,20 +77,20 @@ def free_motions(model: LinearModel) -> list[FreeMotion]:
     >>> hinged = Structure(nodes={"A": (0, 0, 0), "B": (1, 0, 0)}, beams=[beam],
     ...     supports=[Support(nodes="A", fixed=("dx", "dy", "dz", "drx", "dry"))])
     >>> free_motions(hinged)
-    [FreeMotion(text='rotation about z through A', is_mechanism=False)]
+    [FreeMotion(how='rotation about z through A', is_mechanism=False, piece='')]
     """
     fields = model.expansion @ model.rigid_shapes()
     if fields.shape[1] == 0:
         return []
     ground = _Ground.of(model)
-    pieces = [rows for rows in ground.pieces(model) if fields[rows].any()]
+    several = len(ground.pieces(model, *_JOINING)) > 1
     found = [
         motion
-        for rows in pieces
-        for motion in _of_piece(ground, rows, fields[rows], named=len(pieces) > 1)
+        for rows in ground.pieces(model, "stiffness")
+        for motion in _of_piece(ground, rows, fields[rows], named=several)
     ]
-    placeless = fields[:, ~fields[ground.placed].any(axis=0)]
-    found += [FreeMotion(_led_by(model.dofs, field), is_mechanism=False) for field in placeless.T]
+    amplitudes = fields[:, ~fields[ground.dof >= 0].any(axis=0)]
+    found += [FreeMotion(_led_by(model.dofs, field), is_mechanism=True) for field in amplitudes.T]
     return sorted(found, key=lambda motion: motion.is_mechanism)
 
 
@@ -113,33 +126,32 @@ class _Ground:
         )
 
     @cached_property
-    def placed(self) -> NDArray[np.bool_]:
-        """Which rows are displacements or rotations of nodes of known position."""
-        placed: NDArray[np.bool_] = (self.dof >= 0) & ~np.isnan(self.positions[self.node, 0])
-        return placed
-
-    @cached_property
     def size(self) -> float:
         """A length in m that is typical of the model."""
         known = self.positions[~np.isnan(self.positions[:, 0])]
-        return float(np.ptp(known, axis=0).max()) or 1.0
+        return float(np.ptp(known, axis=0).max()) or 1.0 if len(known) else 1.0
 
-    def pieces(self, model: LinearModel) -> list[IndexArray]:
-        """Return the rows that can move of each piece that hangs together."""
-        stiffness, expansion = model.stiffness, model.expansion
+    def pieces(self, model: LinearModel, *matrices: str) -> list[IndexArray]:
+        """Return the rows that can move of each piece that some matrices hold together."""
+        expansion = model.expansion
         same = np.flatnonzero(np.diff(expansion.columns) == 0)
+        given = [getattr(model, matrix) for matrix in matrices]
         of_node = components(
             len(self.names),
-            self.node[np.concatenate([stiffness.rows, expansion.rows[same]])],
-            self.node[np.concatenate([stiffness.columns, expansion.rows[same + 1]])],
+            self.node[np.concatenate([expansion.rows[same], *(matrix.rows for matrix in given)])],
+            self.node[
+                np.concatenate([expansion.rows[same + 1], *(matrix.columns for matrix in given)])
+            ],
         )
         piece = np.zeros(len(self.names), dtype=np.intp)
         for number, nodes in enumerate(of_node):
             piece[nodes] = number
         moving = np.zeros(len(self.node), dtype=bool)
         moving[expansion.rows] = True
-        rows = np.flatnonzero(moving & self.placed)
-        return [rows[piece[self.node[rows]] == number] for number in range(len(of_node))]
+        rows = np.flatnonzero(moving & (self.dof >= 0))
+        rows = rows[np.argsort(piece[self.node[rows]], kind="stable")]
+        ends = np.flatnonzero(np.diff(piece[self.node[rows]])) + 1
+        return np.split(rows, ends) if len(rows) else []
 
     def scaled(self, rows: IndexArray, fields: FloatArray) -> FloatArray:
         """Return fields with rotations as the displacements that they make at a distance."""
@@ -147,10 +159,15 @@ class _Ground:
         return fields * scale[:, np.newaxis]
 
     def rigid(self, rows: IndexArray) -> FloatArray:
-        """Return the six rigid motions of some rows, scaled; about the origin, (rows, 6)."""
-        nodes = self.node[rows]
-        motions = rigid_motions(self.positions[nodes] / self.size, np.zeros(3))
+        """Return the six rigid motions of some rows, scaled; about the origin, (rows, 6).
+
+        Rotations are left out, as zeros, where a position is not known.
+        """
+        positions = self.positions[self.node[rows]]
+        motions = rigid_motions(np.nan_to_num(positions) / self.size, np.zeros(3))
         own: FloatArray = motions[6 * np.arange(len(rows)) + self.dof[rows]]
+        if np.isnan(positions).any():
+            own[:, 3:] = 0.0
         return own
 
     def words(self, motion: FloatArray) -> str:
@@ -173,17 +190,19 @@ def _of_piece(
     """Return the motions of one piece, given on its rows."""
     fields = ground.scaled(rows, fields)
     fields = fields[:, np.abs(fields).max(axis=0) > 0.0]
+    if fields.shape[1] == 0:
+        return []
     rigid = ground.rigid(rows)
     # With so many, the piece does not hang together; its few rigid motions are among them.
     whole = _common(rigid, fields) if fields.shape[1] <= _MANY else np.zeros((6, 0))
-    names = f" of {_names(ground, rows)}" if named else ""
-    motions = [
-        FreeMotion(_whole_words(ground, motion, whole) + names, is_mechanism=False)
-        for motion in whole.T
+    piece = _names(ground, rows) if named else ""
+    words = [_whole_words(ground, motion, whole) for motion in whole.T]
+    others = _others(fields, rigid @ whole)
+    mechanisms = [_mechanism_words(ground, rows, field) for field in others.T]
+    return [
+        *(FreeMotion(how, is_mechanism=False, piece=piece) for how in words),
+        *(FreeMotion(how, is_mechanism=True, piece=piece) for how in mechanisms),
     ]
-    for field in _others(fields, rigid @ whole).T:
-        motions.append(FreeMotion(_mechanism_words(ground, rows, field), is_mechanism=True))
-    return motions
 
 
 def _common(rigid: FloatArray, fields: FloatArray) -> FloatArray:

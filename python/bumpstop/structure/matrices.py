@@ -196,8 +196,11 @@ class Matrices:
         stiffness matrix lets them pass; what remains, mechanisms for example, is found from
         the matrix itself, unless more than 3000 dofs of known position hang together.
         """
-        about = self._centre()
-        motions = self._motions(about) if self.positions else self._translations()
+        return self._rigid_shapes
+
+    @cached_property
+    def _rigid_shapes(self) -> FloatArray:
+        motions = self._motions(self._centre()) if self.positions else self._translations()
         return null_motions(
             self.reduced(self.stiffness),
             motions[self.free],

@@ -52,6 +52,6 @@ class BasisTable(Table):
     )
     rigid_modes: CountFromZero | None = Field(
         default=None,
-        description="How many motions strain nothing; where left out, pieces that hang "
-        "together may move as a whole, but mechanisms are refused",
+        description="How many motions strain nothing; where left out, a structure in one "
+        "piece may move as a whole; mechanisms and loose pieces are refused",
     )

@@ -1,0 +1,49 @@
+"""What is to be said of the modes of a basis, in a line each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray
+
+__all__ = ["rigid_told", "unstable_told"]
+
+
+def rigid_told(motions: Sequence[str]) -> list[str]:
+    """Return a line that names the motions which strain nothing, where there are any.
+
+    Examples
+    --------
+    >>> rigid_told(["translation along z"])
+    ['1 rigid mode: translation along z']
+    """
+    if not motions:
+        return []
+    number = "1 rigid mode" if len(motions) == 1 else f"{len(motions)} rigid modes"
+    return [f"{number}: {'; '.join(motions)}"]
+
+
+def unstable_told(omega2: FloatArray) -> list[str]:
+    """Return a line that tells in which modes the structure moves away by itself, if in any.
+
+    Examples
+    --------
+    >>> unstable_told(np.array([-4.0, 0.0, 9.0]))
+    ['the structure is unstable in mode 1: it moves away by itself']
+    >>> unstable_told(np.array([-4.0, -1.0]))
+    ['the structure is unstable in all its 2 modes: is the sign of the stiffness right?']
+    """
+    numbers = np.flatnonzero(omega2 < 0.0) + 1
+    if len(numbers) == 0:
+        return []
+    if len(numbers) == len(omega2) > 1:
+        which = f"all its {len(numbers)} modes: is the sign of the stiffness right?"
+    elif len(numbers) == 1:
+        which = f"mode {numbers[0]}: it moves away by itself"
+    elif numbers[-1] - numbers[0] == len(numbers) - 1:
+        which = f"modes {numbers[0]} to {numbers[-1]}: it moves away by itself"
+    else:
+        which = f"{len(numbers)} modes, {numbers[0]} the first: it moves away by itself"
+    return [f"the structure is unstable in {which}"]
