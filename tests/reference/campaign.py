@@ -1,41 +1,132 @@
-"""Compare the core with the oracle on many random problems: ``python -m tests.reference.campaign``.
+"""Hold the core against the judge on many random problems of several stops.
 
-Prints every problem whose events differ and the worst differences.
+``python -m tests.reference.campaign FIRST LAST [--jobs N]`` goes through a range of seeds. It
+prints each problem that fails, a line of progress now and then that names the seed to go on
+from, and what it all came to. Exit status 1 if anything failed.
 """
 
 import argparse
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from multiprocessing import Pool
+from time import monotonic
 
-from .comparison import compare
-from .random_problems import random_problem
+from .several.random_problems import random_several
+from .several.verdict import Verdict, compare
+
+SECONDS_BETWEEN_LINES = 20.0
 
 
-def main() -> None:
+@dataclass(frozen=True)
+class Outcome:
+    """What one seed came to."""
+
+    seed: int
+    verdict: Verdict | None
+    refusal: str = ""
+    failure: str = ""
+
+
+def outcome(seed: int) -> Outcome:
+    """Solve one problem with both and compare."""
+    from bumpstop._core import CoreError
+
+    try:
+        verdict = compare(random_several(seed))
+    except CoreError as error:
+        return Outcome(seed, None, refusal=kind(str(error)))
+    except Exception as error:  # the campaign goes on, and tells
+        return Outcome(seed, None, failure=repr(error))
+    return Outcome(seed, verdict)
+
+
+def kind(message: str) -> str:
+    """Return a refusal without the numbers in it, so that alike ones are counted together."""
+    words = (word for word in message.split() if not any(letter.isdigit() for letter in word))
+    return " ".join(words)[:100]
+
+
+@dataclass
+class Summary:
+    """What the seeds so far came to."""
+
+    problems: int = 0
+    events: int = 0
+    missed: int = 0
+    false: int = 0
+    undecidable: int = 0
+    inexact: int = 0
+    broken: int = 0
+    worst_error: float = 0.0
+    worst_excess: float = 0.0
+    refusals: Counter[str] = field(default_factory=Counter)
+
+    def add(self, one: Outcome) -> str | None:
+        """Count one; return what to say of it, if anything is wrong."""
+        self.problems += 1
+        if one.verdict is None:
+            self.broken += bool(one.failure)
+            self.refusals.update([one.refusal] if one.refusal else [])
+            return one.failure or None
+        verdict, difference = one.verdict, one.verdict.difference
+        self.events += verdict.events
+        self.worst_error = max(self.worst_error, verdict.error)
+        self.worst_excess = max(self.worst_excess, verdict.excess)
+        if difference is not None and difference.undecidable:
+            self.undecidable += 1
+        elif difference is not None:
+            self.missed += difference.missed
+            self.false += not difference.missed
+            word = "missed" if difference.missed else "false"
+            return f"{word} event of stop {difference.stop} at {difference.time:.17g} s"
+        if verdict.excess > 1:
+            self.inexact += 1
+            return (
+                f"error {verdict.error:.1e} is {verdict.excess:.1f} times what is allowed, "
+                f"growth {verdict.growth:.1e}, {verdict.events} events"
+            )
+        return None
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing failed."""
+        return not (self.missed or self.false or self.inexact or self.broken)
+
+    def lines(self) -> Iterator[str]:
+        """Yield the summary."""
+        yield (
+            f"{self.problems} problems, {self.events} events: {self.missed} missed, "
+            f"{self.false} false, {self.undecidable} decided by rounding, "
+            f"{self.inexact} inexact, {self.broken} not judged, "
+            f"{self.refusals.total()} refused"
+        )
+        yield f"worst error {self.worst_error:.1e}, {self.worst_excess:.2g} of what is allowed"
+        for message, count in self.refusals.most_common():
+            yield f"{count} refused: {message}"
+
+
+def main() -> int:
     """Run the seeds asked for."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("first", type=int)
     parser.add_argument("last", type=int)
+    parser.add_argument("--jobs", type=int, default=1)
     arguments = parser.parse_args()
-    worst_state = worst_event = 0.0
-    events = 0
-    for seed in range(arguments.first, arguments.last):
-        try:
-            result = compare(random_problem(seed))
-        except Exception as error:
-            print(f"{seed}: {error!r}", flush=True)
-            continue
-        state, event = result.state_error / result.growth, result.event_error / result.growth
-        if not result.same_events or max(state, event) > 1e-12:
-            print(
-                f"{seed}: {len(result.expected)} expected, {len(result.found)} found, "
-                f"state {state:.1e}, event {event:.1e}, margin {result.margin:.1e}",
-                flush=True,
-            )
-        if result.same_events:
-            worst_state, worst_event = max(worst_state, state), max(worst_event, event)
-        events += len(result.expected)
-    count = arguments.last - arguments.first
-    print(f"{count} problems, {events} events, worst {worst_state:.1e}, {worst_event:.1e}")
+    summary, began, said = Summary(), monotonic(), monotonic()
+    with Pool(arguments.jobs) as pool:
+        for one in pool.imap(outcome, range(arguments.first, arguments.last), chunksize=16):
+            wrong = summary.add(one)
+            if wrong:
+                print(f"{one.seed}: {wrong}", flush=True)
+            if monotonic() - said > SECONDS_BETWEEN_LINES:
+                said = monotonic()
+                rate = summary.problems / (said - began)
+                print(f"-- next {one.seed + 1}, {rate:.0f} a second", flush=True)
+    print(*summary.lines(), sep="\n")
+    return 0 if summary.passed else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -1,0 +1,66 @@
+"""Several stops on a modal system under forces in time, as plain arrays."""
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from ..problem import Array
+from .loads import Exosystem, Load
+
+if TYPE_CHECKING:
+    from bumpstop._core import History
+
+
+@dataclass(frozen=True)
+class Stop:
+    """``F = max(0, -k d - c d')`` below ``d = gap + row . q``."""
+
+    row: Array
+    gap: float
+    stiffness: float
+    damping: float = 0.0
+
+
+@dataclass(frozen=True)
+class SeveralStops:
+    """``q'' + (diag(damping) + coupling) q' + diag(omega2) q = forces + sum of row F``."""
+
+    omega2: Array
+    damping: Array
+    stops: tuple[Stop, ...]
+    duration: float
+    displacement: Array
+    velocity: Array
+    force: Array = field(default_factory=lambda: np.zeros(0))
+    loads: tuple[Load, ...] = ()
+    coupling: Array | None = None
+
+    def __post_init__(self) -> None:
+        """Let no constant force be one of zeros."""
+        if self.force.size == 0:
+            object.__setattr__(self, "force", np.zeros_like(self.omega2))
+
+    def but(self, **changes: Any) -> Self:
+        """Return the same problem with some fields changed."""
+        return replace(self, **changes)
+
+    def exosystem(self) -> Exosystem:
+        """Return the system that makes all forces in time."""
+        return Exosystem.of(self.force, self.loads)
+
+    def solve(self) -> "History":
+        """Let the core solve it by the exact method."""
+        from bumpstop import _core
+
+        if self.loads:
+            raise NotImplementedError("the core takes constant forces only")
+        return _core.simulate(
+            _core.System(self.omega2, self.damping, self.coupling),
+            [_core.Stop(s.row, s.gap, s.stiffness, s.damping) for s in self.stops],
+            self.force,
+            self.displacement,
+            self.velocity,
+            self.duration,
+            "exact",
+        )
