@@ -1,8 +1,9 @@
 """Hold the core against the judge on many random problems of several stops.
 
-``python -m tests.reference.campaign FIRST LAST [--jobs N]`` goes through a range of seeds. It
-prints each problem that fails, a line of progress now and then that names the seed to go on
-from, and what it all came to. Exit status 1 if anything failed.
+``python -m tests.reference.campaign FIRST LAST [--jobs N] [--precise]`` goes through a range of
+seeds. It prints each problem that fails, a line of progress now and then that names the seed to
+go on from, and what it all came to. Exit status 1 if anything failed. The judge is the scan by
+matrix exponentials or, with ``--precise``, the one in fifty digits, over fifty events.
 """
 
 import argparse
@@ -10,13 +11,16 @@ import sys
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from multiprocessing import Pool
 from time import monotonic
 
+from .several.precise import PreciseSeveral
 from .several.random_problems import random_several
-from .several.verdict import Verdict, compare
+from .several.verdict import LARGEST_GROWTH, Verdict, compare
 
 SECONDS_BETWEEN_LINES = 20.0
+PRECISE_EVENTS = 50
 
 
 @dataclass(frozen=True)
@@ -29,12 +33,14 @@ class Outcome:
     failure: str = ""
 
 
-def outcome(seed: int) -> Outcome:
+def outcome(seed: int, precise: bool) -> Outcome:
     """Solve one problem with both and compare."""
     from bumpstop._core import CoreError
 
+    problem = random_several(seed)
     try:
-        verdict = compare(random_several(seed))
+        judge = PreciseSeveral(problem, PRECISE_EVENTS, LARGEST_GROWTH) if precise else None
+        verdict = compare(problem, judge)
     except CoreError as error:
         return Outcome(seed, None, refusal=kind(str(error)))
     except Exception as error:  # the campaign goes on, and tells
@@ -74,7 +80,7 @@ class Summary:
         self.events += verdict.events
         self.worst_error = max(self.worst_error, verdict.error)
         self.worst_excess = max(self.worst_excess, verdict.excess)
-        if difference is not None and difference.undecidable:
+        if verdict.undecidable:
             self.undecidable += 1
         elif difference is not None:
             self.missed += difference.missed
@@ -113,10 +119,13 @@ def main() -> int:
     parser.add_argument("first", type=int)
     parser.add_argument("last", type=int)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--precise", action="store_true")
     arguments = parser.parse_args()
+    judged = partial(outcome, precise=arguments.precise)
+    seeds = range(arguments.first, arguments.last)
     summary, began, said = Summary(), monotonic(), monotonic()
     with Pool(arguments.jobs) as pool:
-        for one in pool.imap(outcome, range(arguments.first, arguments.last), chunksize=16):
+        for one in pool.imap(judged, seeds, chunksize=1 if arguments.precise else 16):
             wrong = summary.add(one)
             if wrong:
                 print(f"{one.seed}: {wrong}", flush=True)

@@ -1,8 +1,11 @@
 """The judge in double precision: scan every guard, refine every minimum, switch, and go on.
 
 It shares nothing with the core: no eigenvalues but the fastest one's size, no modes, no bounds.
-Perturbations are carried beside the state, through every switch (saltation), so that it is
-known what rounding may do to a run.
+
+What rounding may do to a run is known from the matrices V(t, s) that carry a perturbation from
+an instant s to a later one t, through every switch (saltation). Rounding enters in every phase, at
+its start and on the way, so that the sum of ``V V'`` over these instants is carried beside the
+state: its root is the growth, |V|.
 """
 
 from bisect import bisect_right
@@ -78,7 +81,7 @@ class ScanSolution:
         self.minima: list[Minimum] = []
         n = problem.omega2.size
         self.sizes = np.abs(problem.displacement).max(), np.abs(problem.velocity).max()
-        self.perturbation = np.eye(2 * n + self.exosystem.start.size, 2 * n)
+        self.blur = np.zeros((2 * n, 2 * n))  # sum of V V', displacements before velocities
         self.growth = 1.0
         self.end = problem.duration
         self._solve()
@@ -100,7 +103,9 @@ class ScanSolution:
                 for guard in guards_of(number, stop, state, self.exosystem)
             ]
             rows = np.array([guard.row for guard in guards])
-            rows = rows.reshape(len(guards), self.perturbation.shape[0])
+            rows = rows.reshape(
+                len(guards), 2 * self.problem.omega2.size + self.exosystem.start.size
+            )
             self.rooms[states] = guards, rows.T, self._flow(states).series(rows)
         return self.rooms[states]
 
@@ -168,26 +173,26 @@ class ScanSolution:
         reach = max(self.sizes[0], float(np.abs(track[:, :n]).max()))
         speed = max(self.sizes[1], float(np.abs(track[:, n : 2 * n]).max()))
         self.sizes = reach, speed
-        # Within a contact the perturbations may be larger than before and after it.
-        for between in {step // 4, step // 2, 3 * step // 4}:
-            self._note_growth(flow.powers[between] @ self.perturbation)
-        self.perturbation = flow.powers[step] @ self.perturbation
-        if part:
-            self.perturbation = flow.within(self.perturbation, part)
-        self._note_growth(self.perturbation)
+        half = step // 2
+        for steps, rest in ((half, 0.0), (step - half, part)):
+            carry = flow.powers[steps]
+            carry = (flow.within(carry, rest) if rest else carry)[: 2 * n, : 2 * n]
+            self._carry(carry)
 
-    def _note_growth(self, perturbation: Array) -> None:
-        n = self.problem.omega2.size
-        size = np.repeat([size or 1.0 for size in self.sizes], n)
-        relative = perturbation[: 2 * n] * size / size[:, None]
-        self.growth = max(self.growth, float(np.linalg.norm(relative)))
+    def _carry(self, carry: Array) -> None:
+        """Add a rounding to the perturbations and carry them on."""
+        size = np.repeat([size or 1.0 for size in self.sizes], carry.shape[0] // 2)
+        self.blur = carry @ (self.blur + np.diag(size**2)) @ carry.T
+        relative = np.sqrt(np.trace(self.blur / size / size[:, None]))
+        self.growth = max(self.growth, float(relative))
 
     def _saltation(self, number: int, before: str, after: str) -> None:
         """Let perturbations cross a switch: only a damper's force jumps, where it closes."""
         stop, n = self.problem.stops[number], self.problem.omega2.size
         if (before, after) == (OPEN, CLOSED) and stop.damping > 0:
-            jump = -stop.damping * np.outer(stop.row, stop.row)
-            self.perturbation[n : 2 * n] += jump @ self.perturbation[:n]
+            jump = np.eye(2 * n)
+            jump[n:, :n] = -stop.damping * np.outer(stop.row, stop.row)
+            self.blur = jump @ self.blur @ jump.T
 
     # -- zeros -----------------------------------------------------------------------------
 

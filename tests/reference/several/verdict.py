@@ -34,27 +34,6 @@ class Judge(Protocol):
         """Return how much a perturbation of the start may have grown."""
 
 
-@dataclass(frozen=True)
-class Difference:
-    """Where the events of one stop first differ."""
-
-    stop: int
-    time: float
-    missed: bool  # or false: the core found one that is not there
-    undecidable: bool  # a guard came so near to zero there that rounding decides
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """How a run compares."""
-
-    events: int
-    difference: Difference | None
-    error: float  # of displacement and velocity, relative to the largest
-    excess: float  # the same over what is allowed: 1e-10 + 100 eps |V|
-    growth: float
-
-
 def core_events(history: "History") -> list[Event]:
     """Return the core's events."""
     columns: dict[str, Any] = dict(history.events())
@@ -81,50 +60,82 @@ def by_stop(events: Sequence[Event], stop: int, settle: float) -> list[Event]:
     return kept
 
 
+@dataclass(frozen=True)
+class Difference:
+    """Where the events of one stop first differ."""
+
+    stop: int
+    time: float
+    until: float  # when the list that has the event has the next one of this stop
+    missed: bool  # or false: the core found one that is not there
+
+
 def first_difference(
-    expected: Sequence[Event], found: Sequence[Event], stops: int, duration: float
-) -> tuple[int, float, bool] | None:
-    """Return the first stop, instant and kind (missed?) at which two lists of events differ."""
-    settle = 1e-12 * duration
-    firsts = []
+    expected: Sequence[Event], found: Sequence[Event], stops: int, end: float
+) -> Difference | None:
+    """Return the first event that only one of the lists has."""
+    differences = []
     for stop in range(stops):
-        left, right = by_stop(expected, stop, settle), by_stop(found, stop, settle)
-        for n in range(max(len(left), len(right))):
-            a = left[n] if n < len(left) else None
-            b = right[n] if n < len(right) else None
-            near = a is not None and b is not None and abs(a.time - b.time) <= 1e-3 * duration
-            if a and b and near and (a.before, a.after) == (b.before, b.after):
-                continue
-            missed = b is None or (a is not None and a.time <= b.time)
-            first = a if missed else b
-            assert first is not None
-            firsts.append((first.time, stop, missed))
-            break
-    if not firsts:
-        return None
-    time, stop, missed = min(firsts)
-    return stop, time, missed
+        left, right = by_stop(expected, stop, 1e-12 * end), by_stop(found, stop, 1e-12 * end)
+        at = next(
+            (n for n, pair in enumerate(zip(left, right, strict=False)) if not same(*pair, end)),
+            min(len(left), len(right)),
+        )
+        if at == len(left) == len(right):
+            continue
+        missed = at == len(right) or (at < len(left) and left[at].time <= right[at].time)
+        rest = left[at:] if missed else right[at:]
+        until = rest[1].time if len(rest) > 1 else end
+        differences.append(Difference(stop, rest[0].time, until, missed))
+    return min(differences, key=lambda difference: difference.time, default=None)
+
+
+def same(a: Event, b: Event, end: float) -> bool:
+    """Return whether two events are one."""
+    near = abs(a.time - b.time) <= 1e-3 * end
+    return near and (a.before, a.after) == (b.before, b.after)
+
+
+def undecidable(problem: SeveralStops, judge: Judge, difference: Difference) -> bool:
+    """Return whether rounding decides over an event.
+
+    Either a guard came so near to zero before that it may as well have crossed, or the distance
+    stays so near to zero until the stop switches again.
+    """
+    blurred = 1e3 * EPSILON * judge.growth
+    if any(m.height < blurred and m.time <= difference.time for m in judge.minima):
+        return True
+    stop = problem.stops[difference.stop]
+    displacement = judge.motion(np.linspace(difference.time, difference.until, 9))[0]
+    reach = np.abs(judge.motion(np.linspace(0.0, judge.end, 9))[0]).max()
+    distance = np.abs(stop.gap + displacement @ stop.row).max()
+    return bool(distance <= blurred * (np.abs(stop.row).sum() * reach + abs(stop.gap)))
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How a run compares."""
+
+    events: int
+    difference: Difference | None
+    undecidable: bool
+    error: float  # of displacement and velocity, relative to the largest
+    excess: float  # the same over what is allowed: 1e-10 + 100 eps |V|
+    growth: float
 
 
 def compare(problem: SeveralStops, judge: Judge | None = None) -> Verdict:
     """Solve with both, up to where perturbations have grown a millionfold."""
     judge = judge or ScanSolution(problem, LARGEST_GROWTH)
-    problem = problem.but(duration=judge.end)
-    history = problem.solve()
+    history = problem.but(duration=judge.end).solve()
     inside, found = inner(judge.events, judge), inner(core_events(history), judge)
-    differs = first_difference(inside, found, len(problem.stops), judge.end)
-    difference = None
-    horizon = judge.end
-    if differs is not None:
-        stop, time, missed = differs
-        blurred = 1e3 * EPSILON * judge.growth
-        close = [m for m in judge.minima if m.height < blurred and m.time <= time * (1 + 1e-6)]
-        difference = Difference(stop, time, missed, bool(close))
-        horizon = time
+    difference = first_difference(inside, found, len(problem.stops), judge.end)
+    horizon = difference.time if difference else judge.end
     grid = np.linspace(0.0, horizon, SAMPLES + 1)[1:]
     times = np.sort(np.append(grid, [e.time for e in inside if e.time < horizon]))
     error, excess = state_errors(judge, history, times)
-    return Verdict(len(inside), difference, error, excess, judge.growth)
+    open_question = difference is not None and undecidable(problem, judge, difference)
+    return Verdict(len(inside), difference, open_question, error, excess, judge.growth)
 
 
 def state_errors(judge: Judge, history: "History", times: Array) -> tuple[float, float]:
