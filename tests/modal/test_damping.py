@@ -50,6 +50,21 @@ def test_rayleigh_damping_through_two_points() -> None:
     np.testing.assert_allclose(rule.modal(w**2) / (2 * w), [0.03, 0.01], rtol=1e-13)
 
 
+def test_damping_that_feeds_energy_is_told() -> None:
+    basis = bs.ModalBasis.from_structure(chain(damping=-0.1 * MASS), modes=3)
+    assert basis.remarks == ("negative damping feeds energy into the modes",)
+    assert bs.ModalBasis.from_structure(chain(damping=0.1 * MASS), modes=3).remarks == ()
+
+
+def test_an_unstable_stiffness_is_told_in_one_line() -> None:
+    model = bs.Matrices(stiffness=-STIFFNESS, mass=MASS, dofs=DOFS)
+    (line,) = bs.ModalBasis.from_structure(model, modes=3).remarks
+    assert line.startswith("the structure is unstable in all its 3 modes: is the sign of the stif")
+    saddle = bs.Matrices(stiffness=np.diag([-2.0, -1.0, 3.0]), mass=MASS, dofs=DOFS)
+    (line,) = bs.ModalBasis.from_structure(saddle, modes=3).remarks
+    assert line == "the structure is unstable in modes 1 to 2: it moves away by itself"
+
+
 def test_rayleigh_damping_slows_rigid_modes() -> None:
     pair = bs.Matrices(
         stiffness=[[1e4, -1e4], [-1e4, 1e4]],

@@ -154,6 +154,24 @@ def test_what_would_follow_late_is_refused(kind: str) -> None:
         moving(np.eye(2), np.diag([0.0, 1.0]), **{kind: matrix})
 
 
+@pytest.mark.parametrize(
+    "stiffness",
+    [
+        np.diag([5.0, -1.0]),
+        np.array([[5.0, 2.0], [2.0, 0.0]]),  # no work on it alone, but pushed by the other
+    ],
+)
+def test_what_is_pushed_away_without_inertia_is_refused(stiffness: Array) -> None:
+    with pytest.raises(InputError, match=r"nodes.P: d1 is pushed away by a negative stiffness"):
+        moving(stiffness, np.diag([1.0, 0.0]))
+
+
+def test_two_motions_that_are_pushed_away_together() -> None:
+    stiffness = np.array([[9.0, 0.0, 0.0], [0.0, 1.0, 2.0], [0.0, 2.0, 1.0]])
+    with pytest.raises(InputError, match=r"nodes.P: d. is pushed away by a negative stiffness"):
+        moving(stiffness, np.diag([1.0, 0.0, 0.0]))
+
+
 def test_nothing_with_mass() -> None:
     with pytest.raises(InputError, match="nothing that can move has mass"):
         moving(np.eye(3), np.zeros((3, 3)))

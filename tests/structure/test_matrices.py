@@ -87,7 +87,17 @@ REFUSED = [
         {"mass": np.diag([1.0, 0.0]), "damping": SPRING},
         "nodes.Q: dx is moved by a damper, but has no mass",
     ),
-    ({"mass": np.zeros((2, 2))}, "nothing that can move has mass"),
+    ({"mass": np.zeros((2, 2))}, "mass: is zero everywhere: nothing has inertia"),
+    (
+        {"mass": np.diag([1.0, 0.0]), "fixed": [("P", "dx")]},
+        "nothing that can move has mass",
+    ),
+    ({"stiffness": np.zeros((2, 2))}, "stiffness: is zero everywhere: nothing resists"),
+    (
+        {"stiffness": -SPRING, "mass": np.diag([1.0, 0.0])},
+        "nodes.Q: dx is pushed away by a negative stiffness, but has no mass",
+    ),
+    ({"stiffness": np.zeros((0, 0))}, "stiffness: is 0 x 0, but there are 2 dofs"),
     ({"stiffness": SPRING + 1j}, "stiffness: must be real, not complex"),
     ({"stiffness": [[1.0], [1.0, 2.0]]}, "stiffness: must be a matrix"),
     ({"stiffness": [1.0, 2.0]}, "stiffness: must be a matrix"),
@@ -241,6 +251,7 @@ def test_the_null_space_of_any_matrix_is_found(rank: int, missing: int, seed: in
 def test_random_sparse_matrices_arrive_unchanged(size: int, density: float, seed: int) -> None:
     random = np.random.default_rng(seed)
     given_half = sp.random_array((size, size), density=density, rng=random, format="coo")
+    given_half.setdiag(1.0)  # so that something has stiffness
     symmetric = (given_half + given_half.T).tocsr()
     skew = (given_half - given_half.T).tocsr()
     model = Matrices(

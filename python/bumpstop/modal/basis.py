@@ -17,7 +17,7 @@ from bumpstop.modal.eigen import model_modes
 from bumpstop.modal.given import given_components, given_labels, given_vectors, modal_masses
 from bumpstop.modal.modal_damping import modal_damping, with_companions
 from bumpstop.modal.projected import projected
-from bumpstop.modal.remarks import rigid_told, unstable_told
+from bumpstop.modal.remarks import feeding_told, rigid_told, unstable_told
 from bumpstop.modal.rigid_modes import require_rigid_modes
 from bumpstop.modal.selected import require_modes
 from bumpstop.modal.selection import ModeSelection, mode_selection
@@ -374,6 +374,7 @@ class ModalBasis:
         return (
             *rigid_told(self.rigid_modes),
             *unstable_told(self.omega2),
+            *feeding_told(self.damping_matrix),
             *self.dropped,
             *self.neglected,
         )

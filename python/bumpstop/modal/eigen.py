@@ -50,10 +50,11 @@ def model_modes(model: LinearModel, selection: ModeSelection) -> Modes:
         If the matrices are too badly conditioned.
     """
     free = len(model.free)
-    if free == 0 or (isinstance(selection, LowestModes | ModesAround) and selection.count > free):
-        asked = getattr(selection, "count", None)
-        hint = f"the structure has {free} free dofs"
-        raise InputError("more modes than free dofs", key="modes", value=asked, hint=hint)
+    if free == 0:
+        raise InputError("there are none: nothing can move", key="modes", hint="hold fewer dofs")
+    if isinstance(selection, LowestModes | ModesAround) and selection.count > free:
+        what, hint = "more modes than free dofs", f"the structure has {free} free dofs"
+        raise InputError(what, key="modes", value=selection.count, hint=hint)
     stiffness, mass = model.reduced(model.stiffness), model.reduced(model.mass)
     rigid = model.rigid_shapes()
     groups = _uncoupled(stiffness, mass)

@@ -8,7 +8,10 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 
-__all__ = ["rigid_told", "unstable_told"]
+__all__ = ["feeding_told", "rigid_told", "unstable_told"]
+
+_ROUNDING = 1e-9
+"""A damping this small beside the largest of its matrix is rounding."""
 
 
 def rigid_told(motions: Sequence[str]) -> list[str]:
@@ -47,3 +50,19 @@ def unstable_told(omega2: FloatArray) -> list[str]:
     else:
         which = f"{len(numbers)} modes, {numbers[0]} the first: it moves away by itself"
     return [f"the structure is unstable in {which}"]
+
+
+def feeding_told(damping: FloatArray | None) -> list[str]:
+    """Return a line that says so where a damping matrix adds energy to some motion.
+
+    Examples
+    --------
+    >>> feeding_told(np.diag([0.2, -0.1]))
+    ['negative damping feeds energy into the modes']
+    """
+    if damping is None or not damping.any():
+        return []
+    least = np.linalg.eigvalsh(damping)[0]
+    if least >= -_ROUNDING * np.abs(damping).max():
+        return []
+    return ["negative damping feeds energy into the modes"]

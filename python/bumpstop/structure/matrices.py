@@ -60,7 +60,8 @@ class Matrices:
     ------
     InputError
         If a matrix is not finite, not symmetric or of another size than the dofs; if a dof
-        appears twice or is not known; if mass is negative, or a motion without mass is damped.
+        appears twice or is not known; if stiffness or mass is zero everywhere, mass is negative,
+        or a motion without mass is damped or has negative stiffness.
 
     Examples
     --------
@@ -112,6 +113,8 @@ class Matrices:
         self.fixed = _dofs("fixed", fixed) if len(fixed) else ()
         for number, (node, dof) in enumerate(self.fixed):
             self._number(node, dof, f"fixed[{number}]", f"fixed[{number}]")
+        for key, what in (("stiffness", "resists"), ("mass", "has inertia")):
+            self._refuse_nothing(key, what)
         self._refuse_negative_mass()
         self._refuse_indefinite_mass()
         self._mobility  # noqa: B018  # says what is wrong now, not when modes are asked for
@@ -255,6 +258,11 @@ class Matrices:
         held = [node for node, dof in self.fixed if dof in DOFS[:3] and node in self.positions]
         node = next(iter([*held, *self.positions]), None)
         return np.array(self.positions[node]) if node is not None else np.zeros(3)
+
+    def _refuse_nothing(self, key: str, what: str) -> None:
+        if len(getattr(self, key).values) == 0:
+            hint = "is it the right file or array?"
+            raise InputError(f"is zero everywhere: nothing {what}", key=key, hint=hint)
 
     def _refuse_negative_mass(self) -> None:
         diagonal = self.mass.diagonal()

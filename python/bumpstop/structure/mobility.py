@@ -74,7 +74,8 @@ def mobility(
     Raises
     ------
     InputError
-        If a motion without inertia is damped, or nothing with inertia can move.
+        If a motion without inertia is damped or pushed away by a negative stiffness, or nothing
+        with inertia can move.
     """
     motions = massless_motions(told, matrices["mass"], massive)
     massless = told.expansion.times(motions)
@@ -82,7 +83,9 @@ def mobility(
         return Mobility(told, told, massless)
     for kind, part in _DELAYING.items():
         _refuse(told, motions, matrices[kind], dofs, part)
-    idle = idle_motions(motions, told.reduced(matrices["stiffness"]))
+    stiffness = told.reduced(matrices["stiffness"])
+    idle = idle_motions(motions, stiffness)
+    _refuse_unstable(told, motions, idle, stiffness, dofs)
     allowed = without(told, idle, scale[told.free]) if idle.shape[1] else told
     motions = massless_motions(allowed, matrices["mass"], massive)
     freedom = allowed
@@ -114,5 +117,24 @@ def _refuse(
     if acting.any():
         moved, weights = motions.dense_columns(forces.columns[acting][:1])
         node, dof = dofs[freedom.free[moved[np.abs(weights[:, 0]).argmax()]]]
-        what = f"{dof} is moved by {part}, but has no mass"
-        raise InputError(what, key=f"nodes.{node}", hint="give the node mass, or rotary inertia")
+        raise _has_no_mass(node, f"{dof} is moved by {part}")
+
+
+def _refuse_unstable(
+    freedom: Freedom,
+    motions: SparseMatrix,
+    idle: SparseMatrix,
+    stiffness: SparseMatrix,
+    dofs: tuple[Dof, ...],
+) -> None:
+    from bumpstop.structure.unstable import unstable_motion
+
+    motion = unstable_motion(motions, idle, stiffness)
+    if motion is not None:
+        node, dof = dofs[freedom.free[np.abs(motion).argmax()]]
+        raise _has_no_mass(node, f"{dof} is pushed away by a negative stiffness")
+
+
+def _has_no_mass(node: str, what: str) -> InputError:
+    hint = "give the node mass, or rotary inertia"
+    return InputError(f"{what}, but has no mass", key=f"nodes.{node}", hint=hint)

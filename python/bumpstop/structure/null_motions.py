@@ -115,7 +115,7 @@ def is_definite(matrix: FloatArray, bound: float) -> bool:
     (True, False)
     """
     diagonal = matrix.diagonal()
-    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
+    scale = 1.0 / np.sqrt(np.where(diagonal != 0.0, np.abs(diagonal), 1.0))
     return _exceeds(matrix * np.outer(scale, scale), bound)
 
 

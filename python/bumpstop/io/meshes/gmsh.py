@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple, Protocol, TypeAlias
 
 from bumpstop.arguments import Vector
 from bumpstop.errors import InputError
@@ -18,6 +19,9 @@ __all__ = ["read_gmsh"]
 _LINE, _POINT = 1, 15
 _CURVED = (8, 26, 27, 28)
 """Lines with nodes between their ends."""
+
+_Sections: TypeAlias = dict[str, list[str]]
+"""The lines of each section by its name."""
 
 
 def read_gmsh(path: Path) -> LineMesh:
@@ -40,16 +44,16 @@ def read_gmsh(path: Path) -> LineMesh:
             if section not in sections:
                 raise InputError(f"has no ${section}")
         try:
-            return _VERSIONS[version[0]](sections).mesh()
+            return _mesh(_VERSIONS[version[0]], sections)
         except InputError:
             raise
         except (ValueError, IndexError, StopIteration, RuntimeError) as error:
             raise InputError("a number is missing or cannot be read") from error
 
 
-def _sections(lines: list[str]) -> dict[str, list[str]]:
+def _sections(lines: list[str]) -> _Sections:
     """Return the lines of each section by its name."""
-    sections: dict[str, list[str]] = {}
+    sections: _Sections = {}
     name = ""
     for line in lines:
         if line.startswith("$End"):
@@ -68,36 +72,53 @@ def _sections(lines: list[str]) -> dict[str, list[str]]:
     return sections
 
 
-class _Reader:
-    """What is read of any version: nodes, lines and points, with the groups they are in."""
+class _Node(NamedTuple):
+    tag: str
+    place: list[str]
 
-    def __init__(self, sections: dict[str, list[str]]) -> None:
-        self.sections = sections
-        self.groups = _physical_names(sections.get("PhysicalNames", ["0"]))
+
+class _Element(NamedTuple):
+    tag: str
+    kind: int
+    nodes: list[str]
+    physical: list[int]
+    """Tags of the physical groups that it belongs to."""
+
+
+class _Version(Protocol):
+    """How a version of the format writes nodes and elements."""
+
+    def nodes(self, sections: _Sections) -> Iterator[_Node]:
+        """Yield each node."""
+
+    def elements(self, sections: _Sections) -> Iterator[_Element]:
+        """Yield each element."""
+
+
+def _mesh(version: _Version, sections: _Sections) -> LineMesh:
+    parts = _Parts(_physical_names(sections.get("PhysicalNames", ["0"])))
+    for node in version.nodes(sections):
+        parts.add_node(*node)
+    for element in version.elements(sections):
+        parts.add_element(*element)
+    return line_mesh(parts.nodes, parts.lines, parts.line_groups, parts.node_groups)
+
+
+class _Parts:
+    """Nodes, lines and points, with the groups they are in."""
+
+    def __init__(self, names: dict[tuple[int, int], str]) -> None:
+        self.groups = names
         self.nodes: dict[str, Vector] = {}
         self.lines: dict[str, tuple[str, str]] = {}
         self.line_groups: dict[str, list[str]] = {}
         self.node_groups: dict[str, list[str]] = {}
 
-    def mesh(self) -> LineMesh:
-        """Return the mesh, once nodes and elements are read."""
-        self.read_nodes(iter(self.sections["Nodes"]))
-        self.read_elements(iter(self.sections["Elements"]))
-        return line_mesh(self.nodes, self.lines, self.line_groups, self.node_groups)
-
-    def read_nodes(self, lines: Iterator[str]) -> None:
-        """Read the section of nodes."""
-        raise NotImplementedError
-
-    def read_elements(self, lines: Iterator[str]) -> None:
-        """Read the section of elements."""
-        raise NotImplementedError
-
-    def add_node(self, tag: str, words: list[str]) -> None:
+    def add_node(self, tag: str, place: list[str]) -> None:
         """Add a node with its coordinates."""
         if tag in self.nodes:
             raise InputError(f"node {tag} is there twice")
-        x, y, z = (float(word) for word in words[:3])
+        x, y, z = (float(word) for word in place[:3])
         self.nodes[tag] = (x, y, z)
 
     def add_element(self, tag: str, kind: int, nodes: list[str], physical: list[int]) -> None:
@@ -131,40 +152,43 @@ def _physical_names(lines: list[str]) -> dict[tuple[int, int], str]:
     return names
 
 
-class _Version2(_Reader):
-    def read_nodes(self, lines: Iterator[str]) -> None:
-        for _ in range(_announced(next(lines), len(self.sections["Nodes"]))):
-            tag, *words = next(lines).split()
-            self.add_node(tag, words)
+class _Version2:
+    def nodes(self, sections: _Sections) -> Iterator[_Node]:
+        """Yield each node."""
+        lines = iter(sections["Nodes"])
+        for _ in range(_announced(next(lines), sections["Nodes"])):
+            tag, *place = next(lines).split()
+            yield _Node(tag, place)
 
-    def read_elements(self, lines: Iterator[str]) -> None:
-        for _ in range(_announced(next(lines), len(self.sections["Elements"]))):
+    def elements(self, sections: _Sections) -> Iterator[_Element]:
+        """Yield each element."""
+        lines = iter(sections["Elements"])
+        for _ in range(_announced(next(lines), sections["Elements"])):
             tag, *words = next(lines).split()
             kind, tags = int(words[0]), int(words[1])
             physical = [int(word) for word in words[2:3] if tags and word != "0"]
-            self.add_element(tag, kind, words[2 + tags :], physical)
+            yield _Element(tag, kind, words[2 + tags :], physical)
 
 
-class _Version4(_Reader):
-    def __init__(self, sections: dict[str, list[str]]) -> None:
-        super().__init__(sections)
-        self.physical = _physical_of_entities(iter(sections.get("Entities", ["0 0 0 0"])))
+class _Version4:
+    def nodes(self, sections: _Sections) -> Iterator[_Node]:
+        """Yield each node."""
+        lines = iter(sections["Nodes"])
+        for _ in range(_announced(next(lines).split()[0], sections["Nodes"])):
+            count = _announced(next(lines).split()[3], sections["Nodes"])
+            for tag in [next(lines).strip() for _ in range(count)]:
+                yield _Node(tag, next(lines).split())
 
-    def read_nodes(self, lines: Iterator[str]) -> None:
-        blocks = next(lines).split()[0]
-        for _ in range(_announced(blocks, len(self.sections["Nodes"]))):
-            count = _announced(next(lines).split()[3], len(self.sections["Nodes"]))
-            tags = [next(lines).strip() for _ in range(count)]
-            for tag in tags:
-                self.add_node(tag, next(lines).split())
-
-    def read_elements(self, lines: Iterator[str]) -> None:
-        blocks = next(lines).split()[0]
-        for _ in range(_announced(blocks, len(self.sections["Elements"]))):
-            dimension, entity, kind, count = (int(word) for word in next(lines).split())
-            for _ in range(_announced(str(count), len(self.sections["Elements"]))):
+    def elements(self, sections: _Sections) -> Iterator[_Element]:
+        """Yield each element."""
+        groups = _physical_of_entities(iter(sections.get("Entities", ["0 0 0 0"])))
+        lines = iter(sections["Elements"])
+        for _ in range(_announced(next(lines).split()[0], sections["Elements"])):
+            dimension, entity, kind, count = next(lines).split()
+            physical = groups.get((int(dimension), int(entity)), [])
+            for _ in range(_announced(count, sections["Elements"])):
                 tag, *nodes = next(lines).split()
-                self.add_element(tag, kind, nodes, self.physical.get((dimension, entity), []))
+                yield _Element(tag, int(kind), nodes, physical)
 
 
 def _physical_of_entities(lines: Iterator[str]) -> dict[tuple[int, int], list[int]]:
@@ -180,12 +204,12 @@ def _physical_of_entities(lines: Iterator[str]) -> dict[tuple[int, int], list[in
     return physical
 
 
-def _announced(word: str, most: int) -> int:
-    """Return a number of things; InputError where there are fewer lines than that."""
+def _announced(word: str, section: list[str]) -> int:
+    """Return a number of things; InputError where the section has fewer lines than that."""
     count = int(word)
-    if count > most:
+    if count > len(section):
         raise InputError(f"announces {count} nodes or elements and has fewer", hint="truncated?")
     return count
 
 
-_VERSIONS = {"2.2": _Version2, "4.1": _Version4}
+_VERSIONS: dict[str, _Version] = {"2.2": _Version2(), "4.1": _Version4()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypedDict, Unpack
@@ -115,11 +116,14 @@ def line_mesh(
     Raises
     ------
     InputError
-        If a line ends at an unknown node or has no length, a group holds what is not there, or
-        there is no line.
+        If a coordinate is not finite, a line ends at an unknown node or has no length, a group
+        holds what is not there, or there is no line.
     """
     if not lines:
         raise InputError("has no lines between two nodes", hint="beams are made of such lines")
+    for name, place in nodes.items():
+        if not all(map(math.isfinite, place)):
+            raise InputError(f"a coordinate of node {name} is not finite", value=place)
     for name, ends in lines.items():
         for end in ends:
             if end not in nodes:
