@@ -1,10 +1,13 @@
-"""The exact method with several stops against fifty digits, over fifty events."""
+"""Fifty digits: against the judge by matrix exponentials, and the exact method against them."""
 
+import numpy as np
 import pytest
 
+from .several.forced import random_forced
 from .several.precise import PreciseSeveral
 from .several.random_problems import random_several
-from .several.verdict import LARGEST_GROWTH, compare
+from .several.scan import ScanSolution
+from .several.verdict import EPSILON, LARGEST_GROWTH, by_stop, compare, inner
 
 EVENTS = 50
 
@@ -17,3 +20,18 @@ def test_states_after_fifty_events(seed: int) -> None:
     assert len(judge.events) >= 20
     assert verdict.difference is None
     assert verdict.excess < 1.0
+
+
+@pytest.mark.parametrize("seed", [3, 6, 13, 16, 17, 23])
+def test_the_judges_agree_under_forces_in_time(seed: int) -> None:
+    problem = random_forced(seed)
+    precise = PreciseSeveral(problem, EVENTS, LARGEST_GROWTH)
+    scan = ScanSolution(problem, LARGEST_GROWTH)
+    expected, found = inner(precise.events, precise), inner(scan.events, precise)
+    for stop in range(len(problem.stops)):
+        left, right = (by_stop(events, stop, 1e-12 * precise.end) for events in (expected, found))
+        assert [(e.before, e.after) for e in left] == [(e.before, e.after) for e in right]
+    times = np.linspace(0.0, precise.end, 25)
+    allowed = 1e-12 + 20 * EPSILON * scan.growth
+    for wanted, given in zip(precise.motion(times), scan.motion(times), strict=True):
+        assert given == pytest.approx(wanted, abs=allowed * np.abs(wanted).max())

@@ -39,8 +39,10 @@ def load_series(load: Load, time: Decimal, h: Decimal) -> Iterator[Decimal]:
     elif isinstance(load, Polynomial):
         a = [Decimal(c) for c in load.coefficients]
         for n in range(len(a)):
-            powers = (comb(k, n) * a[k] * time ** (k - n) for k in range(n, len(a)))
-            yield h**n * sum(powers, ZERO)
+            value = ZERO
+            for k in range(len(a) - 1, n - 1, -1):
+                value = value * time + comb(k, n) * a[k]
+            yield h**n * value
     else:
         times, values = decimals(load.times), decimals(load.values)
         at = max(bisect_right(times, time) - 1, 0)
