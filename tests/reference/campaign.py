@@ -1,9 +1,9 @@
 """Hold the core against the judge on many random problems of several stops.
 
-``python -m tests.reference.campaign FIRST LAST [--jobs N] [--precise]`` goes through a range of
-seeds. It prints each problem that fails, a line of progress now and then that names the seed to
-go on from, and what it all came to. Exit status 1 if anything failed. The judge is the scan by
-matrix exponentials or, with ``--precise``, the one in fifty digits, over fifty events.
+``python -m tests.reference.campaign FIRST LAST [--family F] [--jobs N] [--precise]`` goes through
+a range of seeds. It prints each problem that fails, a line of progress now and then that names
+the seed to go on from, and what it all came to. Exit status 1 if anything failed. The judge is
+the scan by matrix exponentials or, with ``--precise``, the one in fifty digits, over fifty events.
 """
 
 import argparse
@@ -15,12 +15,15 @@ from functools import partial
 from multiprocessing import Pool
 from time import monotonic
 
+from .several.coupled import random_coupled
+from .several.forced import random_forced
 from .several.precise import PreciseSeveral
 from .several.random_problems import random_several
 from .several.verdict import LARGEST_GROWTH, Verdict, compare
 
 SECONDS_BETWEEN_LINES = 20.0
 PRECISE_EVENTS = 50
+FAMILIES = {"constant": random_several, "coupled": random_coupled, "forced": random_forced}
 
 
 @dataclass(frozen=True)
@@ -33,11 +36,11 @@ class Outcome:
     failure: str = ""
 
 
-def outcome(seed: int, precise: bool) -> Outcome:
+def outcome(seed: int, family: str, precise: bool) -> Outcome:
     """Solve one problem with both and compare."""
     from bumpstop._core import CoreError
 
-    problem = random_several(seed)
+    problem = FAMILIES[family](seed)
     try:
         judge = PreciseSeveral(problem, PRECISE_EVENTS, LARGEST_GROWTH) if precise else None
         verdict = compare(problem, judge)
@@ -119,9 +122,10 @@ def main() -> int:
     parser.add_argument("first", type=int)
     parser.add_argument("last", type=int)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--family", choices=FAMILIES, default="constant")
     parser.add_argument("--precise", action="store_true")
     arguments = parser.parse_args()
-    judged = partial(outcome, precise=arguments.precise)
+    judged = partial(outcome, family=arguments.family, precise=arguments.precise)
     seeds = range(arguments.first, arguments.last)
     summary, began, said = Summary(), monotonic(), monotonic()
     with Pool(arguments.jobs) as pool:

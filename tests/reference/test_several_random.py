@@ -2,12 +2,24 @@
 
 import pytest
 
+from .several.coupled import random_coupled
+from .several.problem import SeveralStops
 from .several.random_problems import random_several
 from .several.verdict import compare
 
 
-@pytest.mark.parametrize("seed", range(1000, 1060))
-def test_random_problem_of_several_stops(seed: int) -> None:
-    verdict = compare(random_several(seed))
+def check(problem: SeveralStops) -> None:
+    """Hold the core against the judge."""
+    verdict = compare(problem)
     assert verdict.difference is None or verdict.undecidable
     assert verdict.excess < 1.0
+
+
+@pytest.mark.parametrize("seed", range(1000, 1060))
+def test_random_problem_of_several_stops(seed: int) -> None:
+    check(random_several(seed))
+
+
+@pytest.mark.parametrize("seed", [2, 3, 4, 6, 7, 10, 14, 17, 21, 22])
+def test_random_problem_of_coupled_modes(seed: int) -> None:
+    check(random_coupled(seed))

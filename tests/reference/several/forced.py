@@ -28,11 +28,15 @@ def random_polynomial(rng: np.random.Generator, shape: Array, duration: float) -
 
 
 def random_table(rng: np.random.Generator, shape: Array, duration: float) -> Table:
-    """Return straight lines between points, evenly spaced or not, over the whole run."""
+    """Return straight lines between points, evenly spaced or not, with jumps or without."""
     count = int(rng.integers(2, MOST_KNOTS))
     steps = np.ones(count) if rng.random() < 0.5 else rng.uniform(0.05, 1.0, count)
+    if rng.random() < 0.2:
+        steps[rng.integers(1, count)] = 0.0
     times = np.concatenate([[0.0], np.cumsum(steps)]) * (1.001 * duration / steps.sum())
-    return Table(shape, times, rng.normal(size=count + 1))
+    if rng.random() < 0.2:  # it begins later and ends earlier than the run
+        times = 0.1 * duration + 0.7 * times
+    return Table(shape, times, rng.normal(size=count + 1), bool(rng.random() < 0.5))
 
 
 def random_load(rng: np.random.Generator, problem: SeveralStops, size: float) -> Load:

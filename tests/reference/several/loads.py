@@ -60,11 +60,12 @@ class Polynomial:
 
 @dataclass(frozen=True)
 class Table:
-    """``shape * f(t)``, f linear between the points given; they cover the run from t = 0."""
+    """``shape * f(t)``, f linear between the points given; two points at one time are a jump."""
 
     shape: Array
     times: Array
     values: Array
+    holds: bool = True  # beyond the points the nearest value; else zero
 
     @property
     def generator(self) -> Array:
@@ -73,12 +74,20 @@ class Table:
 
     def start(self) -> Array:
         """Return value and slope at t = 0."""
-        return self.knots()[0][1]
+        begun = [state for time, state in self.knots() if time <= 0.0]
+        before = np.array([self.values[0] if self.holds else 0.0, 0.0])
+        # A point before t = 0 is told on to t = 0.
+        past = max((t for t in self.times.tolist() if t <= 0.0), default=0.0)
+        state = begun[-1] if begun else before
+        return np.array([state[0] - past * state[1], state[1]])
 
     def knots(self) -> list[tuple[float, Array]]:
         """Return each point with the value there and the slope that follows."""
-        slopes = np.append(np.diff(self.values) / np.diff(self.times), 0.0)
-        states = np.stack([self.values, slopes], axis=1)
+        spans = np.diff(self.times)
+        slopes = np.diff(self.values) / np.where(spans > 0, spans, np.inf)
+        states = np.stack([self.values, np.append(slopes, 0.0)], axis=1)
+        if not self.holds:
+            states[-1] = 0.0
         return list(zip(self.times.tolist(), states, strict=True))
 
 

@@ -45,12 +45,13 @@ def load_series(load: Load, time: Decimal, h: Decimal) -> Iterator[Decimal]:
             yield h**n * value
     else:
         times, values = decimals(load.times), decimals(load.values)
-        at = max(bisect_right(times, time) - 1, 0)
-        slope = ZERO
-        if at + 1 < len(times):
+        at = bisect_right(times, time) - 1
+        if at < 0 or at + 1 == len(times):
+            yield values[max(at, 0)] if load.holds else ZERO
+        else:
             slope = (values[at + 1] - values[at]) / (times[at + 1] - times[at])
-        yield values[at] + slope * (time - times[at])
-        yield h * slope
+            yield values[at] + slope * (time - times[at])
+            yield h * slope
     while True:
         yield ZERO
 
