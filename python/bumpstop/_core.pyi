@@ -71,10 +71,19 @@ def component_labels(size: int, rows: Index, columns: Index) -> Index:
     """Return for each vertex of a graph the lowest vertex that it is joined to, (size,)."""
 
 class System:
-    """``q'' + (diag(damping) + coupling) q' + diag(omega2) q = f``, unit modal mass."""
+    """``q'' + (diag(damping) + coupling) q' + (diag(omega2) + circulatory) q = f``.
 
-    def __init__(self, omega2: Array, damping: Array, coupling: Array | None = None) -> None:
-        """Take omega2 (N,) in rad2/s2, and damping (N,) and coupling (N, N) in rad/s."""
+    Unit modal mass.
+    """
+
+    def __init__(
+        self,
+        omega2: Array,
+        damping: Array,
+        coupling: Array | None = None,
+        circulatory: Array | None = None,
+    ) -> None:
+        """Take omega2 (N,) and circulatory (N, N) in rad2/s2, the others alike in rad/s."""
 
 class Stop:
     """A unilateral spring and damper at distance ``d = gap + row . q``."""

@@ -103,7 +103,7 @@ pub enum Error {
     },
     /// A method that needs modes of their own was given coupled ones.
     #[error(
-        "the {method} method does not take modes that damping or gyroscopic forces couple; the exact method does"
+        "the {method} method does not take modes that damping, gyroscopic or circulatory forces couple; the exact method does"
     )]
     CoupledModes {
         /// The method.

@@ -183,9 +183,11 @@ impl<L: Law> History<L> {
         for (force, ((w2, q), (c, v))) in forces.iter_mut().zip(inner) {
             *force -= w2 * q + c * v;
         }
-        if let Some(coupling) = system.coupling() {
-            for (mode, force) in forces.iter_mut().enumerate() {
-                *force -= coupling.product(mode, v);
+        for (matrix, motion) in [(system.coupling(), v), (system.circulatory(), q)] {
+            if let Some(matrix) = matrix {
+                for (mode, force) in forces.iter_mut().enumerate() {
+                    *force -= matrix.product(mode, motion);
+                }
             }
         }
         forces

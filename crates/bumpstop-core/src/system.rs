@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, check_finite, check_length};
 
-/// `q'' + (diag(damping) + coupling) q' + diag(omega2) q = forces`, unit modal mass.
+/// `q'' + (diag(damping) + coupling) q' + (diag(omega2) + circulatory) q = forces`, unit modal mass.
 ///
 /// A rigid-body mode has `omega2` exactly zero; a negative one is a physical instability.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,26 +10,44 @@ pub struct ModalSystem {
     omega2: Vec<f64>,
     damping: Vec<f64>,
     coupling: Option<Coupling>,
+    circulatory: Option<Coupling>,
 }
 
-/// What else multiplies the modal velocities, in rad/s: damping that couples modes, gyroscopic
-/// forces. A matrix of any symmetry.
+/// What else multiplies the modal velocities (in rad/s: damping that couples modes, gyroscopic
+/// forces) or displacements (in rad2/s2: circulatory forces). A matrix of any symmetry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coupling {
     rows: Vec<Vec<f64>>,
 }
 
 impl Coupling {
-    /// The factor of the velocity of mode `column` in the equation of mode `row`.
+    /// The factor of mode `column` in the equation of mode `row`.
     pub fn at(&self, row: usize, column: usize) -> f64 {
         self.rows[row][column]
     }
 
-    /// What a velocity gives in the equation of one mode.
-    pub fn product(&self, row: usize, velocity: &[f64]) -> f64 {
-        (self.rows[row].iter().zip(velocity))
-            .map(|(factor, v)| factor * v)
+    /// What modal velocities, or displacements, give in the equation of one mode.
+    pub fn product(&self, row: usize, modal: &[f64]) -> f64 {
+        (self.rows[row].iter().zip(modal))
+            .map(|(factor, x)| factor * x)
             .sum()
+    }
+
+    /// A square matrix of finite numbers; `None` where it couples nothing.
+    fn new(what: &'static str, rows: Vec<Vec<f64>>, modes: usize) -> Result<Option<Self>> {
+        if rows.len() != modes {
+            return Err(Error::Length {
+                what,
+                found: rows.len(),
+                expected: modes,
+            });
+        }
+        for row in &rows {
+            check_length(what, row, modes)?;
+            check_finite(what, row)?;
+        }
+        let couples = rows.iter().flatten().any(|factor| *factor != 0.0);
+        Ok(couples.then_some(Self { rows }))
     }
 
     /// Whether a mode has a part in it.
@@ -57,6 +75,7 @@ impl ModalSystem {
             omega2,
             damping,
             coupling: None,
+            circulatory: None,
         })
     }
 
@@ -65,27 +84,40 @@ impl ModalSystem {
     /// # Errors
     /// When it is not square of the system's size or a number is not finite.
     pub fn with_coupling(mut self, rows: Vec<Vec<f64>>) -> Result<Self> {
-        const WHAT: &str = "the velocity coupling";
-        let modes = self.modes();
-        if rows.len() != modes {
-            return Err(Error::Length {
-                what: WHAT,
-                found: rows.len(),
-                expected: modes,
-            });
-        }
-        for row in &rows {
-            check_length(WHAT, row, modes)?;
-            check_finite(WHAT, row)?;
-        }
-        let couples = rows.iter().flatten().any(|factor| *factor != 0.0);
-        self.coupling = couples.then_some(Coupling { rows });
+        self.coupling = Coupling::new("the velocity coupling", rows, self.modes())?;
+        Ok(self)
+    }
+
+    /// The same with a matrix beside the stiffness, one row a mode: circulatory
+    /// forces, such as those of a bearing's cross stiffness.
+    ///
+    /// # Errors
+    /// When it is not square of the system's size or a number is not finite.
+    pub fn with_circulatory(mut self, rows: Vec<Vec<f64>>) -> Result<Self> {
+        self.circulatory = Coupling::new("the circulatory matrix", rows, self.modes())?;
         Ok(self)
     }
 
     /// What couples the modal velocities, if anything does.
     pub fn coupling(&self) -> Option<&Coupling> {
         self.coupling.as_ref()
+    }
+
+    /// What couples the modal displacements, if anything does.
+    pub fn circulatory(&self) -> Option<&Coupling> {
+        self.circulatory.as_ref()
+    }
+
+    /// Whether anything couples the modes beside the laws.
+    pub fn is_coupled(&self) -> bool {
+        self.coupling.is_some() || self.circulatory.is_some()
+    }
+
+    /// Whether a matrix couples a mode.
+    pub fn couples(&self, mode: usize) -> bool {
+        let involves =
+            |matrix: &Option<Coupling>| matrix.as_ref().is_some_and(|m| m.involves(mode));
+        involves(&self.coupling) || involves(&self.circulatory)
     }
 
     /// Number of modes.

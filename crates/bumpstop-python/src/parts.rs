@@ -5,25 +5,31 @@ use bumpstop_core::{law, system};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-/// `q'' + (diag(damping) + coupling) q' + diag(omega2) q = f`, unit modal mass.
+/// `q'' + (diag(damping) + coupling) q' + (diag(omega2) + circulatory) q = f`, unit modal mass.
 #[pyclass(frozen, module = "bumpstop._core")]
 pub struct System(pub system::ModalSystem);
 
 #[pymethods]
 impl System {
     #[new]
-    #[pyo3(signature = (omega2, damping, coupling=None))]
+    #[pyo3(signature = (omega2, damping, coupling=None, circulatory=None))]
     fn new(
         omega2: PyReadonlyArray1<f64>,
         damping: PyReadonlyArray1<f64>,
         coupling: Option<PyReadonlyArray2<f64>>,
+        circulatory: Option<PyReadonlyArray2<f64>>,
     ) -> PyResult<Self> {
-        let system = system::ModalSystem::new(values(&omega2), values(&damping));
-        let system = system.and_then(|system| match coupling {
-            Some(coupling) => system.with_coupling(rows(&coupling)),
-            None => Ok(system),
-        });
-        system.map(Self).map_err(core_error)
+        let build = || {
+            let mut system = system::ModalSystem::new(values(&omega2), values(&damping))?;
+            if let Some(coupling) = coupling {
+                system = system.with_coupling(rows(&coupling))?;
+            }
+            if let Some(circulatory) = circulatory {
+                system = system.with_circulatory(rows(&circulatory))?;
+            }
+            Ok(Self(system))
+        };
+        build().map_err(core_error)
     }
 }
 

@@ -45,6 +45,24 @@ impl Piece {
     pub fn acts(&self) -> bool {
         *self != Self::FREE
     }
+
+    /// Whether there may be a force along a coordinate.
+    #[inline(always)]
+    pub fn acts_along(&self, coordinate: usize) -> bool {
+        self.constant[coordinate] != 0.0
+            || self.stiffness[coordinate] != [0.0; COORDINATES]
+            || self.damping[coordinate] != [0.0; COORDINATES]
+    }
+
+    /// Whether the force along a coordinate depends on that coordinate alone.
+    #[inline(always)]
+    pub fn is_own(&self, coordinate: usize) -> bool {
+        (0..COORDINATES).all(|other| {
+            other == coordinate
+                || self.stiffness[coordinate][other] == 0.0
+                    && self.damping[coordinate][other] == 0.0
+        })
+    }
 }
 
 /// A function of the local motion that is positive while a state lasts.

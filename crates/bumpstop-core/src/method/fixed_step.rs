@@ -216,10 +216,10 @@ impl StepRecord {
 
 /// Refuses a system whose modes are coupled: the schemes carry each by itself.
 pub(crate) fn check_uncoupled(method: &'static str, system: &ModalSystem) -> Result<()> {
-    match system.coupling() {
-        Some(_) => Err(Error::CoupledModes { method }),
-        None => Ok(()),
+    if system.is_coupled() {
+        return Err(Error::CoupledModes { method });
     }
+    Ok(())
 }
 
 /// Refuses a step above the limit, unless it was asked for by name.

@@ -1,53 +1,24 @@
 //! Spectra by the dense eigenproblem of the state matrix: any damping, any number of laws.
 
-use super::grouping::Acting;
+use super::coupled::{Coupled, coupled_modes};
 use super::rows::set_entry;
 use super::secular::Coupling;
 use super::spectrum::{Member, Spectrum};
 use crate::error::{Error, Result};
-use crate::law::Law;
+use crate::law::{Law, State};
 use crate::number::{Complex, LANES};
 use crate::problem::Problem;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-/// `y'' + C y' + K y = p` of the coupled groups.
-struct Coupled {
-    stiffness: Mat<f64>,
-    damping: Mat<f64>,
-}
-
-/// Couples the modes that laws push together and those whose velocities are coupled.
+/// Couples the modes that laws push together and those that matrices of the structure couple.
 pub(crate) fn couple<L: Law>(
     spectrum: &mut Spectrum,
     problem: &Problem<L>,
-    acting: &[Acting],
+    states: &[State],
 ) -> Result<()> {
-    let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
-    let modes: Vec<usize> = (0..omega2.len())
-        .filter(|&i| {
-            acting.iter().any(|a| a.row(problem)[i] != 0.0)
-                || problem.system.coupling().is_some_and(|c| c.involves(i))
-        })
-        .collect();
-    let n = modes.len();
-    let sum = |r: usize, c: usize, factor: fn(&Acting) -> f64| -> f64 {
-        (acting.iter())
-            .map(|a| factor(a) * a.row(problem)[modes[r]] * a.row(problem)[modes[c]])
-            .sum()
-    };
-    let diagonal = |values: &[f64], r: usize, c: usize| if r == c { values[modes[r]] } else { 0.0 };
-    let coupled = Coupled {
-        stiffness: Mat::from_fn(n, n, |r, c| {
-            diagonal(omega2, r, c) + sum(r, c, |a| a.stiffness)
-        }),
-        damping: Mat::from_fn(n, n, |r, c| {
-            let coupling = problem.system.coupling();
-            diagonal(damping, r, c)
-                + sum(r, c, |a| a.damping)
-                + coupling.map_or(0.0, |coupling| coupling.at(modes[r], modes[c]))
-        }),
-    };
+    let modes = coupled_modes(problem, states);
+    let coupled = Coupled::of_modes(problem, states, &modes);
     spectrum.members = (modes.iter().enumerate())
         .map(|(group, &mode)| Member {
             mode,
@@ -55,34 +26,17 @@ pub(crate) fn couple<L: Law>(
             weight: 1.0,
         })
         .collect();
-    spectrum.groups = n;
-    spectrum.combinations = n;
-    spectrum.group_damping = modes.iter().map(|&i| damping[i]).collect();
-    let forces = Mat::from_fn(n, 1, |i, _| {
-        let constant: f64 = acting
-            .iter()
-            .map(|a| a.constant * a.row(problem)[modes[i]])
-            .sum();
-        problem.forcing.forces()[modes[i]] + constant
-    });
-    spectrum.at_rest = coupled.rest(&forces)?;
+    spectrum.groups = modes.len();
+    spectrum.combinations = modes.len();
+    let damping = problem.system.damping();
+    spectrum.group_damping = modes.iter().map(|&mode| damping[mode]).collect();
+    spectrum.at_rest = coupled.rest()?;
     coupled.solve_into(spectrum)
 }
 
 /// Spectrum of one law whose modes are too heavily damped for the secular path.
 pub(crate) fn set_coupled(spectrum: &mut Spectrum, coupling: &Coupling) -> Result<()> {
-    let n = coupling.omega2.len();
-    let outer = |r: usize, c: usize| coupling.phi[r] * coupling.phi[c];
-    let diagonal = |values: &[f64], r: usize, c: usize| if r == c { values[r] } else { 0.0 };
-    let coupled = Coupled {
-        stiffness: Mat::from_fn(n, n, |r, c| {
-            diagonal(&coupling.omega2, r, c) + coupling.stiffness * outer(r, c)
-        }),
-        damping: Mat::from_fn(n, n, |r, c| {
-            diagonal(&coupling.damping, r, c) + coupling.stop_damping * outer(r, c)
-        }),
-    };
-    coupled.solve_into(spectrum)
+    Coupled::by_one(coupling).solve_into(spectrum)
 }
 
 /// What is left of a constant force at rest, relative to it, above which there is no rest.
@@ -91,8 +45,8 @@ const UNBALANCED: f64 = 1e-9;
 impl Coupled {
     /// The position at rest under constant forces; that of no force where nothing pushes, even if
     /// some motion is free.
-    fn rest(&self, forces: &Mat<f64>) -> Result<Vec<f64>> {
-        let n = self.stiffness.nrows();
+    fn rest(&self) -> Result<Vec<f64>> {
+        let (n, forces) = (self.stiffness.nrows(), &self.force);
         let size = forces.norm_max();
         if size == 0.0 {
             return Ok(vec![0.0; n]);

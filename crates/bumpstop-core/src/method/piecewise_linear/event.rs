@@ -8,6 +8,7 @@ use crate::history::Event;
 use crate::law::{COORDINATES, Guard, Law, Local, State};
 use crate::number::Instructions;
 use crate::problem::Problem;
+use crate::system::Coupling;
 
 /// The guards of all laws in their present states.
 #[derive(Debug, Default)]
@@ -114,17 +115,23 @@ pub(crate) fn initial_states<L: Law>(problem: &Problem<L>) -> Vec<State> {
 fn free_derivatives<L: Law>(problem: &Problem<L>, law: &L) -> ([Local<f64>; 4], [f64; 4]) {
     let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
     let forces = problem.forcing.forces();
-    let coupled = |mode: usize, velocity: &[f64]| {
-        let coupling = problem.system.coupling();
-        coupling.map_or(0.0, |coupling| coupling.product(mode, velocity))
+    let coupled = |mode: usize, position: &[f64], velocity: &[f64]| {
+        let part = |matrix: Option<&Coupling>, motion: &[f64]| {
+            matrix.map_or(0.0, |matrix| matrix.product(mode, motion))
+        };
+        part(problem.system.coupling(), velocity) + part(problem.system.circulatory(), position)
     };
     let acceleration = |i: usize| {
         let (q, v) = (problem.displacement[i], problem.velocity[i]);
-        forces[i] - damping[i] * v - omega2[i] * q - coupled(i, &problem.velocity)
+        forces[i]
+            - damping[i] * v
+            - omega2[i] * q
+            - coupled(i, &problem.displacement, &problem.velocity)
     };
-    let accelerations: Vec<f64> = match problem.system.coupling() {
-        Some(_) => (0..omega2.len()).map(acceleration).collect(),
-        None => Vec::new(),
+    let accelerations: Vec<f64> = if problem.system.is_coupled() {
+        (0..omega2.len()).map(acceleration).collect()
+    } else {
+        Vec::new()
     };
     let mut motion = [[0.0; COORDINATES]; 4];
     let mut sizes = [0.0; 4];
@@ -132,7 +139,8 @@ fn free_derivatives<L: Law>(problem: &Problem<L>, law: &L) -> ([Local<f64>; 4], 
         for i in 0..omega2.len() {
             let (q, v) = (problem.displacement[i], problem.velocity[i]);
             let a = acceleration(i);
-            let jerk = -damping[i] * a - omega2[i] * v - coupled(i, &accelerations);
+            let jerk =
+                -damping[i] * a - omega2[i] * v - coupled(i, &problem.velocity, &accelerations);
             let derivatives = [q, v, a, jerk];
             for (order, derivative) in derivatives.iter().enumerate() {
                 let term = row[i] * derivative;

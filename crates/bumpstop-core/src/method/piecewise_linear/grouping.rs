@@ -5,7 +5,7 @@ use super::spectrum::Member;
 use crate::law::{COORDINATES, Law, Piece, State};
 use crate::problem::Problem;
 
-/// A law in a state that acts along one local coordinate.
+/// A law in a state that is one spring and damper along one local coordinate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Acting {
     pub law: usize,
@@ -15,33 +15,49 @@ pub(crate) struct Acting {
     pub damping: f64,
 }
 
+/// What acts in the given states of the laws.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Acts {
+    Nothing,
+    /// One spring and damper.
+    One(Acting),
+    /// Anything else: several of them, or forces that depend on other coordinates than their own.
+    Several,
+}
+
+impl Acts {
+    /// Finds out what acts.
+    #[inline(always)]
+    pub(crate) fn of<L: Law>(problem: &Problem<L>, states: &[State]) -> Self {
+        let mut acts = Self::Nothing;
+        for (index, (law, state)) in problem.laws.iter().zip(states).enumerate() {
+            let piece = law.piece(*state).unwrap_or(Piece::FREE);
+            for (i, row) in law.rows().iter().enumerate().take(COORDINATES) {
+                if !piece.acts_along(i) || row.iter().all(|r| *r == 0.0) {
+                    continue;
+                }
+                let is_spring = piece.stiffness[i][i] > 0.0 && piece.is_own(i);
+                if !is_spring || !matches!(acts, Self::Nothing) {
+                    return Self::Several;
+                }
+                acts = Self::One(Acting {
+                    law: index,
+                    coordinate: i,
+                    constant: piece.constant[i],
+                    stiffness: piece.stiffness[i][i],
+                    damping: piece.damping[i][i],
+                });
+            }
+        }
+        acts
+    }
+}
+
 impl Acting {
     /// Its row, which projects modal displacements to the local coordinate.
     #[inline(always)]
     pub(crate) fn row<'a, L: Law>(&self, problem: &'a Problem<L>) -> &'a [f64] {
         &problem.laws[self.law].rows()[self.coordinate]
-    }
-
-    /// Lists what acts in the given states.
-    pub(crate) fn list<L: Law>(problem: &Problem<L>, states: &[State], to: &mut Vec<Self>) {
-        to.clear();
-        for (index, (law, state)) in problem.laws.iter().zip(states).enumerate() {
-            let piece = law.piece(*state).unwrap_or(Piece::FREE);
-            for (i, row) in law.rows().iter().enumerate().take(COORDINATES) {
-                let alone = piece.constant[i] == 0.0
-                    && piece.stiffness[i] == [0.0; COORDINATES]
-                    && piece.damping[i] == [0.0; COORDINATES];
-                if !alone && row.iter().any(|r| *r != 0.0) {
-                    to.push(Self {
-                        law: index,
-                        coordinate: i,
-                        constant: piece.constant[i],
-                        stiffness: piece.stiffness[i][i],
-                        damping: piece.damping[i][i],
-                    });
-                }
-            }
-        }
     }
 }
 

@@ -7,6 +7,7 @@
 //! The only approximation is rounding.
 
 mod advance;
+mod coupled;
 mod dense;
 mod dissipation;
 mod event;

@@ -6,7 +6,7 @@
 //! only are split into the combination that it pushes and the rest that it does not see.
 
 use super::dense;
-use super::grouping::{Acting, group_alike, group_forces, static_groups};
+use super::grouping::{Acting, Acts, group_alike, group_forces, static_groups};
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
 use super::single_mode::SingleMode;
@@ -89,7 +89,6 @@ pub(crate) enum Secular {
 /// Room for making spectra, used again and again.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Workbench {
-    acting: Vec<Acting>,
     order: Vec<usize>,
     coupling: Coupling,
     forces: Vec<f64>,
@@ -111,14 +110,11 @@ impl Spectrum {
     ) -> Result<Self> {
         let mut spectrum = room.cleared();
         spectrum.states.extend_from_slice(states);
-        Acting::list(problem, states, &mut bench.acting);
-        match (bench.acting.as_slice(), problem.system.coupling()) {
-            ([], None) => {}
-            ([one], None) => {
-                let one = *one;
-                spectrum.couple_by_one::<I, L>(problem, &one, secular, bench)?;
-            }
-            (acting, _) => dense::couple(&mut spectrum, problem, acting)?,
+        match Acts::of(problem, states) {
+            _ if problem.system.is_coupled() => dense::couple(&mut spectrum, problem, states)?,
+            Acts::Nothing => {}
+            Acts::One(law) => spectrum.couple_by_one::<I, L>(problem, &law, secular, bench)?,
+            Acts::Several => dense::couple(&mut spectrum, problem, states)?,
         }
         spectrum.add_singles(problem, bench);
         spectrum.lay_out_exponents();

@@ -1,0 +1,116 @@
+//! The equations of the modes that laws and matrices of the structure couple.
+
+use super::secular::Coupling;
+use crate::law::{COORDINATES, Law, Local, Piece, State};
+use crate::problem::Problem;
+use faer::Mat;
+
+/// `y'' + C y' + K y = p` with matrices of any symmetry and constant p.
+pub(crate) struct Coupled {
+    pub stiffness: Mat<f64>,
+    pub damping: Mat<f64>,
+    pub force: Mat<f64>,
+}
+
+/// The modes that laws in the given states push or feel, and those that matrices couple.
+pub(crate) fn coupled_modes<L: Law>(problem: &Problem<L>, states: &[State]) -> Vec<usize> {
+    let mut involved: Vec<bool> = (0..problem.system.modes())
+        .map(|mode| problem.system.couples(mode))
+        .collect();
+    for (law, piece) in pieces(problem, states) {
+        for (coordinate, row) in law.rows().iter().enumerate() {
+            if piece.acts_along(coordinate) || is_felt(&piece, coordinate) {
+                for (involved, factor) in involved.iter_mut().zip(row) {
+                    *involved |= *factor != 0.0;
+                }
+            }
+        }
+    }
+    (0..involved.len()).filter(|&mode| involved[mode]).collect()
+}
+
+/// The laws that act, and their matrices.
+fn pieces<'a, L: Law>(
+    problem: &'a Problem<L>,
+    states: &'a [State],
+) -> impl Iterator<Item = (&'a L, Piece)> {
+    (problem.laws.iter().zip(states)).filter_map(|(law, state)| {
+        let piece = law.piece(*state).filter(Piece::acts)?;
+        Some((law, piece))
+    })
+}
+
+/// Whether a force along some coordinate depends on this one.
+fn is_felt(piece: &Piece, coordinate: usize) -> bool {
+    (piece.stiffness.iter().chain(&piece.damping)).any(|row| row[coordinate] != 0.0)
+}
+
+impl Coupled {
+    /// The equations of some modes with the laws in the given states.
+    pub(crate) fn of_modes<L: Law>(
+        problem: &Problem<L>,
+        states: &[State],
+        modes: &[usize],
+    ) -> Self {
+        let (system, forces) = (&problem.system, problem.forcing.forces());
+        let n = modes.len();
+        let diagonal =
+            |values: &[f64], r: usize, c: usize| if r == c { values[modes[r]] } else { 0.0 };
+        let entry = |own: &[f64], matrix: Option<&crate::system::Coupling>, r: usize, c: usize| {
+            diagonal(own, r, c) + matrix.map_or(0.0, |matrix| matrix.at(modes[r], modes[c]))
+        };
+        let mut coupled = Self {
+            stiffness: Mat::from_fn(n, n, |r, c| {
+                entry(system.omega2(), system.circulatory(), r, c)
+            }),
+            damping: Mat::from_fn(n, n, |r, c| {
+                entry(system.damping(), system.coupling(), r, c)
+            }),
+            force: Mat::from_fn(n, 1, |r, _| forces[modes[r]]),
+        };
+        for (law, piece) in pieces(problem, states) {
+            let rows: Vec<Vec<f64>> = (law.rows().iter())
+                .map(|row| modes.iter().map(|&mode| row[mode]).collect())
+                .collect();
+            add_product(&mut coupled.stiffness, &rows, &piece.stiffness);
+            add_product(&mut coupled.damping, &rows, &piece.damping);
+            for (row, constant) in rows.iter().zip(piece.constant) {
+                for (i, factor) in row.iter().enumerate() {
+                    coupled.force[(i, 0)] += factor * constant;
+                }
+            }
+        }
+        coupled
+    }
+
+    /// Those of the combinations that one spring and damper couples, under no force.
+    pub(crate) fn by_one(coupling: &Coupling) -> Self {
+        let n = coupling.omega2.len();
+        let phi = &coupling.phi;
+        let entry = |own: &[f64], factor: f64, r: usize, c: usize| {
+            factor * phi[r] * phi[c] + if r == c { own[r] } else { 0.0 }
+        };
+        let (k, c) = (coupling.stiffness, coupling.stop_damping);
+        Self {
+            stiffness: Mat::from_fn(n, n, |row, column| entry(&coupling.omega2, k, row, column)),
+            damping: Mat::from_fn(n, n, |row, column| entry(&coupling.damping, c, row, column)),
+            force: Mat::zeros(n, 1),
+        }
+    }
+}
+
+/// Adds `rows' local rows`.
+fn add_product(to: &mut Mat<f64>, rows: &[Vec<f64>], local: &[Local<f64>; COORDINATES]) {
+    for (row, factors) in rows.iter().zip(local) {
+        for (column, factor) in rows.iter().zip(factors) {
+            if *factor == 0.0 {
+                continue;
+            }
+            for (i, left) in row.iter().enumerate() {
+                for (j, right) in column.iter().enumerate() {
+                    to[(i, j)] += left * factor * right;
+                }
+            }
+        }
+    }
+}
