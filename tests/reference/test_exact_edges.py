@@ -57,6 +57,17 @@ def test_a_graze_is_a_contact_only_if_it_touches(seed: int, depth: float) -> Non
     assert result.state_error < 1e-12
 
 
+@pytest.mark.parametrize("depth", [0.0, 1e-9, -1e-9, 1e-12, -1e-12, 1e-15, -1e-15])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_after_a_graze_that_rounding_may_hide_the_motion_is_right(seed: int, depth: float) -> None:
+    problem, deepest, reach = flight(seed)
+    problem = problem.but(gap=-deepest - depth * reach)
+    result = measured(problem, PreciseSolution(problem), np.linspace(0, problem.duration, 9), 1.0)
+    assert result.state_error < 1e-11
+    if abs(depth) > 1e-12:
+        assert bool(result.found) == (depth > 0)
+
+
 def pressed(start: float, stop_damping: float = 0.0) -> StopProblem:
     """Return a unit mass pressed onto a stop of 400 N/m by 100 N, let go from a displacement."""
     one = np.ones(1)

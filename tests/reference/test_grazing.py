@@ -1,0 +1,144 @@
+"""Touching without crossing: exactly, by a little on either side, flatly, and while others push.
+
+A touch missed by the depth e costs an impulse of ``4/3 k e sqrt(2 e / d'')``: where the instant
+cannot be told, the motion after it still can.
+"""
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from .one_mass import DIGITS, Curve, Mass, OneMass, Wall
+from .problem import CLOSED, RELEASED
+from .several.agreement import agreement
+from .several.problem import SeveralStops, Stop
+
+EXACT = 1e-11
+DEPTHS = [0.0, *(sign * depth for depth in (1e-9, 1e-12, 1e-15) for sign in (1, -1))]
+TELLABLE = 1e-12  # a depth that rounding does not hide
+
+# (1 + cos t)^n as a sum of cosines: zero with its first 2n - 1 derivatives at odd multiples of pi.
+FLAT = {
+    2: (1.0, [1.0]),
+    4: (1.5, [2.0, 0.5]),
+    6: (2.5, [3.75, 1.5, 0.25]),
+}
+
+
+def cosines(order: int, stiffness: float, start: str) -> SeveralStops:
+    """Return modes whose free vibration touches a stop to an order, from afar or touching."""
+    gap, amplitudes = FLAT[order]
+    rates = np.arange(1.0, len(amplitudes) + 1)
+    sign = 1.0 if start == "afar" else (-1.0) ** rates
+    return SeveralStops(
+        omega2=rates**2,
+        damping=0 * rates,
+        stops=(Stop(np.ones(rates.size), gap, stiffness),),
+        duration=40.0,
+        displacement=sign * np.array(amplitudes),
+        velocity=0 * rates,
+    )
+
+
+@pytest.mark.parametrize("order", FLAT)
+@pytest.mark.parametrize("stiffness", [1.0, 1e4, 1e8])
+@pytest.mark.parametrize("start", ["afar", "touching"])
+def test_an_exact_touch_changes_nothing(order: int, stiffness: float, start: str) -> None:
+    problem = cosines(order, stiffness, start)
+    times = np.linspace(0.0, problem.duration, 101)
+    history = problem.solve()
+    phases = np.outer(times, np.sqrt(problem.omega2))
+    free = problem.displacement * np.cos(phases)
+    assert history.motion(times, 0) == pytest.approx(free, abs=EXACT)
+    rates = -problem.displacement * np.sqrt(problem.omega2) * np.sin(phases)
+    assert history.motion(times, 1) == pytest.approx(rates, abs=EXACT)
+
+
+def swing(depth: float, stiffness: float, damping: float = 0.0) -> Mass:
+    """Return a swing of unit amplitude that goes into two walls, each by a depth."""
+    walls = tuple(Wall(side, 1.0 - depth, stiffness, damping) for side in (1, -1))
+    return Mass(walls, duration=20.0, velocity=1.0, omega2=1.0)
+
+
+@pytest.mark.parametrize("depth", DEPTHS)
+@pytest.mark.parametrize("stiffness", [1.0, 1e4, 1e8])
+@pytest.mark.parametrize("damping", [0.0, 1.0])
+def test_a_swing_just_reaches_two_walls(depth: float, stiffness: float, damping: float) -> None:
+    mass = swing(depth, stiffness, damping)
+    oracle = OneMass(mass)
+    assert bool(oracle.events) == (depth > 0)
+    result = agreement(mass.several(), oracle)
+    assert result.state_error < EXACT
+    assert result.energy_residual < EXACT
+    if abs(depth) >= TELLABLE:
+        assert result.same_events
+
+
+@pytest.mark.parametrize("depth", DEPTHS)
+@pytest.mark.parametrize("stiffness", [1.0, 1e4, 1e8])
+def test_a_thrown_mass_just_reaches_a_wall(depth: float, stiffness: float) -> None:
+    mass = Mass((Wall(1, 1.0 - depth, stiffness),), 3.0, velocity=-2.0, force=2.0)
+    result = agreement(mass.several(), oracle := OneMass(mass))
+    assert bool(oracle.events) == (depth > 0)
+    assert result.state_error < EXACT
+    if abs(depth) >= TELLABLE:
+        assert result.same_events
+
+
+@pytest.mark.parametrize("depth", DEPTHS)
+def test_a_force_just_vanishes(depth: float) -> None:
+    # Twice the static displacement: the mass comes up to the height at which it would let go.
+    start = -0.5 - 0.25 * depth
+    mass = Mass((Wall(1, 0.0, 400.0),), 2.0, displacement=start, force=-100.0)
+    result = agreement(mass.several(), oracle := OneMass(mass))
+    assert bool(oracle.events) == (depth > 0)
+    assert result.state_error < EXACT
+    if abs(depth) >= TELLABLE:
+        assert result.same_events
+
+
+@pytest.mark.parametrize("depth", DEPTHS)
+@pytest.mark.parametrize("stiffness", [1.0, 1e4, 1e8])
+def test_a_second_wall_is_just_reached_while_the_first_one_pushes(
+    depth: float, stiffness: float
+) -> None:
+    # Laid down on the first wall the mass swings down to 0.5 below it, where the second one is.
+    walls = (Wall(1, 0.0, 400.0), Wall(1, 0.5 - depth, stiffness))
+    mass = Mass(walls, duration=2.0, force=-100.0)
+    result = agreement(mass.several(), oracle := OneMass(mass))
+    assert any(event.stop == 1 for event in oracle.events) == (depth > 0)
+    assert result.state_error < EXACT
+    if abs(depth) >= TELLABLE:
+        assert result.same_events
+
+
+def test_touches_of_three_walls_meet() -> None:
+    # One begins to push at no speed, one is left and one reached at no speed, again and again.
+    walls = (Wall(1, 0.25, 400.0), Wall(-1, -0.25, 100.0), Wall(1, 0.75, 77.0))
+    mass = Mass(walls, duration=3.0, displacement=-0.25, force=-100.0)
+    oracle = OneMass(mass)
+    assert not oracle.events
+    assert agreement(mass.several(), oracle).state_error < EXACT
+
+
+def let_go(depth: float) -> Mass:
+    """Return a mass let go on a damped wall, whose force dips to zero on its way up."""
+    wall, force = Wall(1, 0.0, 400.0, 10.0), -100.0
+    with mp.workdps(DIGITS):
+        fall = Curve.of(mpf(400), mpf(10), mpf(0), mpf(-1), mpf(0))
+        push = fall.guard(mpf(0), mpf(-400), mpf(-10))
+        least = push.at(next(push.turns()))
+        start = force / 400 + force / -least * (1 + mpf(depth))
+    return Mass((wall,), duration=2.0, displacement=float(start), force=force)
+
+
+@pytest.mark.parametrize("depth", DEPTHS)
+def test_the_force_of_a_damped_wall_just_vanishes_below_it(depth: float) -> None:
+    mass = let_go(depth)
+    oracle = OneMass(mass)
+    result = agreement(mass.several(), oracle)
+    assert result.state_error < EXACT
+    assert result.energy_residual < EXACT
+    if abs(depth) >= TELLABLE:
+        assert [e.after for e in oracle.events] == [RELEASED, CLOSED] * (depth > 0)
+        assert result.same_events

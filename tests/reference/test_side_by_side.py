@@ -1,0 +1,21 @@
+"""Several stops, each on modes of its own, against each structure alone at fifty digits."""
+
+import pytest
+
+from .random_problems import random_problem
+from .several.agreement import agreement
+from .several.blocks import BlockSolution, side_by_side
+
+UNDECIDABLE = 1e-11
+
+
+@pytest.mark.parametrize("first", [0, 16, 28, 36, 48, 60, 68, 80, 88, 104])
+def test_structures_that_do_not_touch_each_other(first: int) -> None:
+    problems = [random_problem(seed) for seed in range(first, first + 4)]
+    oracle = BlockSolution(problems)
+    assert oracle.margin > UNDECIDABLE, "choose other seeds: one grazes"
+    result = agreement(side_by_side(problems), oracle)
+    assert result.same_events
+    assert result.event_error < 1e-11
+    assert result.state_error < 1e-10
+    assert result.energy_residual < 1e-11
