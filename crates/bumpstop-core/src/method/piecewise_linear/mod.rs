@@ -14,6 +14,8 @@ mod event;
 mod grouping;
 mod jet;
 mod phase;
+mod product;
+mod quadrature;
 mod record;
 mod rows;
 mod secular;

@@ -2,6 +2,7 @@
 
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
+use super::product::{Factor, grown};
 use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
 use super::spectrum::Spectrum;
 use super::tables::CELLS_BETWEEN_ANCHORS;
@@ -250,6 +251,41 @@ impl Signal {
         total
     }
 
+    /// The signal as a factor of a product.
+    pub(crate) fn factor<'a>(&'a self, phases: &'a Phases, phase: Phase) -> Factor<'a> {
+        let spectrum = &phases.spectra[phase.spectrum];
+        let mut factor = Factor::of_polynomial(&self.polynomial);
+        for (terms, lambda) in self.terms.iter().zip(&spectrum.lambda) {
+            for lane in 0..LANES {
+                if terms.size.0[lane] > 0.0 {
+                    let lambda = entry(std::slice::from_ref(lambda), lane);
+                    factor.push(lambda, entry(&terms.of[..1], lane));
+                }
+            }
+        }
+        if self.specials.is_empty() {
+            return factor;
+        }
+        let paces = self.specials.iter().map(|special| {
+            let motion = &spectrum.singles[special.single].motion;
+            motion.omega2.abs().sqrt().max(motion.damping)
+        });
+        factor.with_other(paces.fold(0.0, f64::max), move |t| {
+            self.special_value(phases, phase, t)
+        })
+    }
+
+    /// The special parts together.
+    fn special_value(&self, phases: &Phases, phase: Phase, t: f64) -> f64 {
+        let singles = &phases.spectra[phase.spectrum].singles;
+        let value = |special: &Special| {
+            let (x0, v0) = phases.kept(phase, special.single);
+            let [x, v, _] = singles[special.single].motion.special(x0, v0, t);
+            special.of_position * x + special.of_velocity * v
+        };
+        self.specials.iter().map(value).sum()
+    }
+
     /// Makes the signal positive just after the start of the phase; tells whether it is so at
     /// the start already.
     pub(crate) fn orient(&mut self, phases: &Phases, phase: Phase) -> bool {
@@ -424,20 +460,6 @@ impl Signal {
             rounding: self.rounding(at.time + reach),
         }
     }
-}
-
-/// Integral of `exp(lambda s)` from 0 to t.
-fn grown(lambda: Complex<f64>, t: f64) -> Complex<f64> {
-    let turn = lambda.scale(t);
-    if turn.norm2() > 1e-2 {
-        return turn.exp().plus(-1.0) * lambda.recip();
-    }
-    // t (1 + z/2 (1 + z/3 (1 + ...)))
-    let mut series = Complex::real(1.0);
-    for n in (2..=10).rev() {
-        series = (turn * series).scale(1.0 / f64::from(n)).plus(1.0);
-    }
-    series.scale(t)
 }
 
 /// `position . view + velocity . view lambda` for eight exponents.

@@ -90,11 +90,11 @@ impl<'a, L: Law> ContactReader<'a, L> {
         force.velocity[0] = -piece.damping[0][0];
         let mut distance = force;
         (distance.position[0], distance.velocity[0]) = (1.0, 0.0);
-        let signal = self.signal(phase, &force);
-        impact.impulse += signal.integral(&self.record.phases, phase, length);
-        self.add_peaks(phase, length, &signal, impact);
-        let signal = self.signal(phase, &distance);
-        self.add_work(phase, length, &signal, impact);
+        let force = self.signal(phase, &force);
+        impact.impulse += force.integral(&self.record.phases, phase, length);
+        self.add_peaks(phase, length, &force, impact);
+        let distance = self.signal(phase, &distance);
+        self.add_work(phase, length, [&force, &distance], impact);
     }
 
     fn signal(&self, phase: Phase, guard: &Guard) -> Signal {
@@ -116,24 +116,24 @@ impl<'a, L: Law> ContactReader<'a, L> {
     }
 
     /// Between turning points of the distance the work has one sign.
-    fn add_work(&mut self, phase: Phase, length: f64, distance: &Signal, impact: &mut Impact) {
-        let mut instants = vec![0.0];
-        instants.extend(self.turning_points(phase, length, distance));
+    fn add_work(
+        &mut self,
+        phase: Phase,
+        length: f64,
+        [force, distance]: [&Signal; 2],
+        impact: &mut Impact,
+    ) {
+        let mut instants = self.turning_points(phase, length, distance);
         instants.push(length);
-        let given: Vec<f64> = instants.iter().map(|t| self.taken(phase, *t)).collect();
-        for pair in given.windows(2) {
-            impact.add_work(pair[0] - pair[1]);
+        let phases = &self.record.phases;
+        let rate = distance.derivative(phases, phase);
+        let (force, rate) = (force.factor(phases, phase), rate.factor(phases, phase));
+        let mut before = 0.0;
+        for t in instants {
+            let given = force.integral::<Plain>(&rate, t);
+            impact.add_work(given - before);
+            before = given;
         }
-    }
-
-    /// Energy in the law, stored or dissipated since the start of the phase.
-    fn taken(&mut self, phase: Phase, t: f64) -> f64 {
-        let law = &self.problem.laws[self.law];
-        let form = &self.record.accounts(self.problem).forms[phase.spectrum];
-        let dissipated = form.until::<Plain>(&self.record.phases, phase, t, &mut self.work);
-        let motion = (self.record).motion_in::<Plain, L>(self.problem, phase, t, &mut self.work);
-        let state = self.record.phases.states(phase)[self.law];
-        law.stored(state, &project(law, &motion.q)) + dissipated.laws[self.law]
     }
 
     /// All zeros of a signal's rate inside a phase, in order.
