@@ -17,13 +17,19 @@ from time import monotonic
 
 from .several.coupled import random_coupled
 from .several.forced import random_forced
+from .several.grazing import random_grazing
 from .several.precise import PreciseSeveral
 from .several.random_problems import random_several
 from .several.verdict import LARGEST_GROWTH, Verdict, compare
 
 SECONDS_BETWEEN_LINES = 20.0
 PRECISE_EVENTS = 50
-FAMILIES = {"constant": random_several, "coupled": random_coupled, "forced": random_forced}
+FAMILIES = {
+    "constant": random_several,
+    "coupled": random_coupled,
+    "forced": random_forced,
+    "grazing": random_grazing,
+}
 
 
 @dataclass(frozen=True)

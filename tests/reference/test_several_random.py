@@ -3,6 +3,7 @@
 import pytest
 
 from .several.coupled import random_coupled
+from .several.grazing import random_grazing
 from .several.problem import SeveralStops
 from .several.random_problems import random_several
 from .several.verdict import compare
@@ -23,3 +24,8 @@ def test_random_problem_of_several_stops(seed: int) -> None:
 @pytest.mark.parametrize("seed", [2, 3, 4, 6, 7, 10, 14, 17, 21, 22])
 def test_random_problem_of_coupled_modes(seed: int) -> None:
     check(random_coupled(seed))
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, 4, 5, 6, 7, 8, 9, 10])
+def test_random_problem_of_a_stop_only_just_touched(seed: int) -> None:
+    check(random_grazing(seed))
