@@ -3,7 +3,7 @@
 use crate::energy::{self, Ledger};
 use crate::error::{Error, Result, check_length};
 use crate::impacts::{Impact, Sample};
-use crate::law::{Law, Local, State, project};
+use crate::law::{Law, State, project};
 use crate::method::fixed_step::StepRecord;
 use crate::method::piecewise_linear::PhaseRecord;
 use crate::problem::Problem;
@@ -127,10 +127,8 @@ impl<L: Law> History<L> {
                 let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
                 for &time in times {
                     record.sample(time, &mut q, &mut v);
-                    let states: Vec<State> = (self.problem.laws.iter())
-                        .map(|law| law.sampled_state(&project(law, &q), &project(law, &v)))
-                        .collect();
-                    see(&q, &v, &states);
+                    let known = record.states_at(time);
+                    see(&q, &v, &sampled_states(&self.problem, known, &q, &v));
                 }
             }
         }
@@ -291,7 +289,8 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
         let q = record.displacement(n);
         record.velocity(n, &mut v);
         let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, &v);
-        let powers = Powers::new(problem, q, &v);
+        let known = record.states(n);
+        let powers = Powers::new(problem, known, q, &v);
         let mut ledger = Ledger {
             kinetic,
             elastic,
@@ -329,25 +328,37 @@ struct Powers {
 }
 
 impl Powers {
-    fn new<L: Law>(problem: &Problem<L>, q: &[f64], v: &[f64]) -> Self {
-        let locals: Vec<(State, Local<f64>, Local<f64>)> = (problem.laws.iter())
-            .map(|law| {
-                let (position, rate) = (project(law, q), project(law, v));
-                (law.sampled_state(&position, &rate), position, rate)
-            })
-            .collect();
-        let both = || problem.laws.iter().zip(&locals);
+    fn new<L: Law>(problem: &Problem<L>, known: &[State], q: &[f64], v: &[f64]) -> Self {
+        let states = sampled_states(problem, known, q, v);
+        let laws = || problem.laws.iter().zip(&states);
         Self {
             modal: (problem.system.damping().iter().zip(v))
                 .map(|(c, v)| c * v * v)
                 .sum(),
-            laws: both()
-                .map(|(law, (state, x, v))| law.dissipated_power(*state, x, v))
+            laws: laws()
+                .map(|(law, state)| {
+                    let (position, velocity) = (project(law, q), project(law, v));
+                    law.dissipation(*state).at(&position, &velocity)
+                })
                 .collect(),
-            stored: both().map(|(law, (s, x, _))| law.stored(*s, x)).collect(),
-            states: locals.iter().map(|(state, ..)| *state).collect(),
+            stored: laws()
+                .map(|(law, state)| law.stored(*state, &project(law, q)))
+                .collect(),
+            states,
         }
     }
+}
+
+/// The laws' states that a motion shows, after those that a scheme saw at its last step.
+fn sampled_states<L: Law>(
+    problem: &Problem<L>,
+    known: &[State],
+    q: &[f64],
+    v: &[f64],
+) -> Vec<State> {
+    (problem.laws.iter().zip(known))
+        .map(|(law, known)| law.sampled_state(*known, &project(law, q), &project(law, v)))
+        .collect()
 }
 
 /// Linear between two ledgers.

@@ -14,7 +14,7 @@ use super::fixed_step::{
 };
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, project};
+use crate::law::{COORDINATES, Law, Local, State, project};
 use crate::number::{Instructions, Lanes, Number, dispatch};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
@@ -109,6 +109,8 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
         let contacts = contacts.as_mut();
         let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
         let forces = forces.as_mut();
+        let mut seen = A::make(laws.len(), |_| State::FIRST);
+        let seen = seen.as_mut();
         let mut before = modal::<I, B>(&initial);
         let mut q = modal::<I, B>(&problem.displacement);
         record.begin(&initial, &problem.displacement);
@@ -118,8 +120,10 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
-                    states[i] = law.sampled_state(&contact.now, &contact.rate);
-                    forces[i] = law.force(states[i], &contact.now, &contact.rate);
+                    let (position, velocity) = (&contact.now, &contact.rate);
+                    seen[i] = law.sampled_state(seen[i], position, velocity);
+                    forces[i] = law.force(seen[i], position, velocity);
+                    states[i] = seen[i];
                 }
                 let coupled = contacts.iter_mut().zip(couplings.as_ref());
                 for (law, (contact, couplings)) in laws.iter().zip(coupled) {
@@ -229,7 +233,11 @@ fn displacement_before<L: Law>(problem: &Problem<L>, dt: f64) -> Vec<f64> {
     let mut forces = problem.forcing.forces().to_vec();
     for law in &problem.laws {
         let (position, rate) = (project(law, q), project(law, v));
-        let force = law.force(law.sampled_state(&position, &rate), &position, &rate);
+        let force = law.force(
+            law.sampled_state(State::FIRST, &position, &rate),
+            &position,
+            &rate,
+        );
         for (row, f) in law.rows().iter().zip(force) {
             for (total, r) in forces.iter_mut().zip(row) {
                 *total += r * f;

@@ -125,7 +125,7 @@ impl StepRecord {
         let rows = self.displacement.len();
         self.displacement
             .resize((last + 2) * self.stride, [0.0; LANES]);
-        self.states.resize(last * self.laws, State(0));
+        self.states.resize(last * self.laws, State::FIRST);
         (first < last).then(|| Stretch {
             start: first
                 .is_multiple_of(STEPS_BETWEEN_OBSERVATIONS)
@@ -133,6 +133,16 @@ impl StepRecord {
             rows: &mut self.displacement[rows..],
             states: &mut self.states[first * self.laws..],
         })
+    }
+
+    /// The laws' states at step n.
+    pub fn states(&self, n: usize) -> &[State] {
+        &self.states[n * self.laws..][..self.laws]
+    }
+
+    /// The laws' states at the last step before a time, or at it.
+    pub fn states_at(&self, time: f64) -> &[State] {
+        self.states(((time / self.dt) as usize).min(self.steps))
     }
 
     fn row(&self, n: usize) -> &[f64] {
@@ -178,14 +188,15 @@ impl StepRecord {
         let mut events = Vec::new();
         for (index, law) in problem.laws.iter().enumerate() {
             let position = project(law, &problem.displacement);
-            let mut before = law.sampled_state(&position, &project(law, &problem.velocity));
+            let velocity = project(law, &problem.velocity);
+            let mut before = law.sampled_state(State::FIRST, &position, &velocity);
             for (n, after) in self
                 .states
                 .chunks_exact(self.laws)
                 .map(|s| s[index])
                 .enumerate()
             {
-                if after != before {
+                if after.number != before.number {
                     events.push(Event {
                         time: n as f64 * self.dt,
                         law: index,
@@ -193,8 +204,8 @@ impl StepRecord {
                         before,
                         after,
                     });
-                    before = after;
                 }
+                before = after;
             }
         }
         events.sort_by(|a, b| a.time.total_cmp(&b.time));

@@ -12,7 +12,7 @@ use super::fixed_step::{
 };
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, project};
+use crate::law::{COORDINATES, Law, Local, State, project};
 use crate::number::{Instructions, Lanes, Number, dispatch};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
@@ -84,6 +84,8 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
         let contacts = contacts.as_mut();
         let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
         let forces = forces.as_mut();
+        let mut seen = A::make(laws.len(), |_| State::FIRST);
+        let seen = seen.as_mut();
         let mut q = modal::<I, B>(&problem.displacement);
         let mut v = modal::<I, B>(&problem.velocity);
         let both = problem.displacement.iter().zip(&problem.velocity);
@@ -95,8 +97,10 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
-                    states[i] = law.sampled_state(&contact.position, &contact.velocity);
-                    forces[i] = law.force(states[i], &contact.position, &contact.velocity);
+                    let (position, velocity) = (&contact.position, &contact.velocity);
+                    seen[i] = law.sampled_state(seen[i], position, velocity);
+                    forces[i] = law.force(seen[i], position, velocity);
+                    states[i] = seen[i];
                 }
                 let coupled = contacts.iter_mut().zip(couplings.as_ref());
                 for (law, (contact, couplings)) in laws.iter().zip(coupled) {

@@ -154,13 +154,8 @@ impl<'a, L: Law> Run<'a, L> {
             self.phases
                 .motion::<I>(phase, crossing.time, &mut self.scratch.work, &mut q, &mut v);
             time += crossing.time;
-            let (event, guard) = event::event_of(
-                problem,
-                &states,
-                &self.scratch.watch,
-                crossing.watched,
-                time,
-            );
+            let watch = &self.scratch.watch;
+            let (event, guard) = event::event_of(problem, &self.phases, phase, watch, crossing);
             states[event.law] = event.after;
             fired = Some((event.law, guard));
             self.events.push(event);
@@ -178,14 +173,14 @@ impl<'a, L: Law> Run<'a, L> {
         v: &[f64],
     ) -> Result<()> {
         let spectrum = self.spectrum::<I>(states)?;
-        let begun = self
-            .phases
-            .begin::<I>(time, spectrum, q, v, &mut self.scratch.work);
+        let work = &mut self.scratch.work;
+        let begun = self.phases.begin::<I>(time, spectrum, states, q, v, work);
         match begun {
             Err(Error::Defective { .. }) if self.phases.spectra[spectrum].is_secular => {
                 let replacement = self.dense_spectrum(states)?;
+                let work = &mut self.scratch.work;
                 self.phases
-                    .begin::<I>(time, replacement, q, v, &mut self.scratch.work)
+                    .begin::<I>(time, replacement, states, q, v, work)
             }
             begun => begun,
         }
@@ -201,7 +196,8 @@ impl<'a, L: Law> Run<'a, L> {
         Ok(self.phases.add_spectrum(dense))
     }
 
-    /// The number of the spectrum for the given states, the latest one made.
+    /// The number of the spectrum for the given states, the latest one made: one with their
+    /// numbers has their matrices, one with their memory their constant forces too.
     #[inline(always)]
     fn spectrum<I: Instructions>(&mut self, states: &[State]) -> Result<usize> {
         let known = self.phases.spectra.iter().rposition(|s| s.states == states);

@@ -19,9 +19,10 @@ pub(crate) struct Phase {
     pub start: f64,
     /// Its spectrum, by number.
     pub spectrum: usize,
-    /// Where its amplitudes and its singles' initial states start.
+    /// Where its amplitudes, its singles' initial states and its laws' states start.
     amplitudes: usize,
     kept: usize,
+    states: usize,
 }
 
 /// The phases of a run in order of time.
@@ -31,6 +32,7 @@ pub(crate) struct Phases {
     pub list: Vec<Phase>,
     amplitudes: Vec<ComplexBlock>,
     kept: Vec<f64>,
+    states: Vec<State>,
     /// Spectra of an earlier run, for their memory.
     spare: Vec<Spectrum>,
 }
@@ -77,6 +79,7 @@ impl Phases {
         phases.list.clear();
         phases.amplitudes.clear();
         phases.kept.clear();
+        phases.states.clear();
         phases
     }
 
@@ -94,7 +97,7 @@ impl Phases {
         self.spare.pop().unwrap_or_default()
     }
 
-    /// Starts a phase from a state.
+    /// Starts a phase from a motion, with the laws in the given states.
     ///
     /// # Errors
     /// [`Error::Defective`] when the amplitudes do not give the state back,
@@ -104,6 +107,7 @@ impl Phases {
         &mut self,
         start: f64,
         spectrum: usize,
+        states: &[State],
         q: &[f64],
         v: &[f64],
         work: &mut Workspace,
@@ -113,6 +117,7 @@ impl Phases {
             spectrum,
             amplitudes: self.amplitudes.len(),
             kept: self.kept.len(),
+            states: self.states.len(),
         };
         let which = &self.spectra[spectrum];
         work.fit(which.lambda.len());
@@ -141,6 +146,7 @@ impl Phases {
             }
         }
         self.amplitudes.extend_from_slice(&work.z);
+        self.states.extend_from_slice(states);
         self.list.push(phase);
         Ok(())
     }
@@ -241,7 +247,8 @@ impl Phases {
 
     /// The states of the laws during a phase.
     pub(crate) fn states(&self, phase: Phase) -> &[State] {
-        &self.spectra[phase.spectrum].states
+        let laws = self.spectra[phase.spectrum].states.len();
+        &self.states[phase.states..][..laws]
     }
 }
 

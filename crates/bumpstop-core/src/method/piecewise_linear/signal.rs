@@ -7,7 +7,7 @@ use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
 use super::spectrum::Spectrum;
 use super::tables::CELLS_BETWEEN_ANCHORS;
 use super::view::View;
-use crate::law::Guard;
+use crate::law::{Affine, COORDINATES};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
 /// Exponents with `|lambda| r` below this are followed by their Taylor polynomial over a cell of
@@ -71,19 +71,18 @@ pub(crate) struct Instant<'a> {
 }
 
 impl Signal {
-    /// The constant factor free signal `sum position . x + velocity . x'` of one law's local
-    /// coordinates, seen through `views`.
+    /// An affine function of one law's local coordinates, seen through `views`.
     #[inline(always)]
     pub(crate) fn set<I: Instructions>(
         &mut self,
         phases: &Phases,
         phase: Phase,
         views: &[View],
-        guard: &Guard,
+        function: &Affine,
         remaining: f64,
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
-        self.polynomial = [guard.constant, 0.0, 0.0];
+        self.polynomial = [function.constant, 0.0, 0.0];
         self.specials.clear();
         self.remaining = remaining;
         let amplitudes = phases.amplitudes(phase);
@@ -93,7 +92,7 @@ impl Signal {
         for (b, terms) in self.terms.iter_mut().enumerate() {
             let lambda = spectrum.lambda[b].lanes::<I>();
             let modulus = spectrum.moduli[b].lanes::<I>();
-            let value = weights(views, guard, lambda, b) * amplitudes[b].lanes();
+            let value = weights(views, function, lambda, b) * amplitudes[b].lanes();
             let slope = value * lambda;
             let curvature = slope * lambda;
             for (n, of) in [value, slope, curvature].into_iter().enumerate() {
@@ -111,13 +110,10 @@ impl Signal {
         let sums = Lanes::totals([a, b, c, d, e, f, zero, zero]);
         self.totals = [sums[0], sums[1], sums[2]];
         self.at_start = [sums[3], sums[4], sums[5]];
-        for (coordinate, (position, velocity)) in
-            guard.position.iter().zip(guard.velocity).enumerate()
-        {
-            if *position != 0.0 || velocity != 0.0 {
-                let view = &views[coordinate];
-                self.polynomial[0] += position * view.rest;
-                self.add_singles(phases, phase, view, *position, velocity);
+        for (coordinate, view) in views.iter().enumerate().take(COORDINATES) {
+            if function.sees(coordinate) {
+                self.polynomial[0] += function.position[coordinate] * view.rest;
+                self.add_singles(phases, phase, view, function, coordinate);
             }
         }
     }
@@ -128,9 +124,12 @@ impl Signal {
         phases: &Phases,
         phase: Phase,
         view: &View,
-        of_position: f64,
-        of_velocity: f64,
+        function: &Affine,
+        coordinate: usize,
     ) {
+        let of_position = function.position[coordinate];
+        let of_velocity = function.velocity[coordinate];
+        let of_acceleration = function.acceleration[coordinate];
         let spectrum = &phases.spectra[phase.spectrum];
         for (single, weight) in view.singles.iter().enumerate() {
             if *weight == 0.0 {
@@ -138,8 +137,13 @@ impl Signal {
             }
             let motion = &spectrum.singles[single].motion;
             let (x0, v0) = phases.kept(phase, single);
-            let (position, velocity) = (weight * of_position, weight * of_velocity);
+            let (mut position, mut velocity) = (weight * of_position, weight * of_velocity);
+            let acceleration = weight * of_acceleration;
             if motion.is_special() {
+                // x'' = force - c x' - w2 x
+                self.polynomial[0] += acceleration * motion.force;
+                position -= acceleration * motion.omega2;
+                velocity -= acceleration * motion.damping;
                 let third = position.abs() * motion.special_bound(3, x0, v0, self.remaining)
                     + velocity.abs() * motion.special_bound(4, x0, v0, self.remaining);
                 self.specials.push(Special {
@@ -151,7 +155,7 @@ impl Signal {
                 self.totals[0] += position.abs() * x0.abs() + velocity.abs() * v0.abs();
             } else {
                 let p = motion.polynomial(x0, v0);
-                self.polynomial[0] += position * p[0] + velocity * p[1];
+                self.polynomial[0] += position * p[0] + velocity * p[1] + 2.0 * acceleration * p[2];
                 self.polynomial[1] += position * p[1] + 2.0 * velocity * p[2];
                 self.polynomial[2] += position * p[2];
             }
@@ -462,22 +466,25 @@ impl Signal {
     }
 }
 
-/// `position . view + velocity . view lambda` for eight exponents.
+/// `position . view + velocity . view lambda + acceleration . view lambda^2` for eight exponents.
 #[inline(always)]
 fn weights<I: Instructions>(
     views: &[View],
-    guard: &Guard,
+    function: &Affine,
     lambda: Complex<Lanes<I>>,
     block: usize,
 ) -> Complex<Lanes<I>> {
     let mut total = Complex::zero();
-    let factors = guard.position.iter().zip(guard.velocity);
-    for ((position, velocity), view) in factors.zip(views) {
-        if *position != 0.0 || velocity != 0.0 {
+    for (coordinate, view) in views.iter().enumerate().take(COORDINATES) {
+        if function.sees(coordinate) {
             let view = view.exponents[block].lanes();
-            let factor = lambda
-                .scale(Lanes::<I>::of(velocity))
-                .plus(Lanes::<I>::of(*position));
+            let mut factor = lambda
+                .scale(Lanes::<I>::of(function.velocity[coordinate]))
+                .plus(Lanes::<I>::of(function.position[coordinate]));
+            let acceleration = function.acceleration[coordinate];
+            if acceleration != 0.0 {
+                factor += (lambda * lambda).scale(Lanes::<I>::of(acceleration));
+            }
             total += view * factor;
         }
     }
