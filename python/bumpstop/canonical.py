@@ -10,9 +10,12 @@ from bumpstop import _core
 from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from bumpstop.arguments import FloatArray
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
+    from bumpstop.structure.bearing import Bearing
 
 __all__ = ["CanonicalForm", "canonical_form"]
 
@@ -42,9 +45,7 @@ def canonical_form(problem: Problem) -> CanonicalForm:
         If the core refuses the numbers.
     """
     basis = problem.basis
-    if basis.circulatory is not None:
-        hint = "leave out bearings of unequal cross stiffness"
-        raise InputError("circulatory forces couple the modes", key="basis", hint=hint)
+    _refuse_circulatory(basis)
     modes = len(basis.omega2)
     laws = [_core.Stop(law.row(basis), law.gap, law.stiffness, law.damping) for law in problem.laws]
     force = sum((load.modal_force(basis) for load in problem.loads), np.zeros(modes))
@@ -54,6 +55,22 @@ def canonical_form(problem: Problem) -> CanonicalForm:
         displacement, velocity = problem.initial.modal_state(basis)
     system = _core.System(basis.omega2, *_velocity_terms(basis))
     return CanonicalForm(system, laws, force, displacement, velocity)
+
+
+def _refuse_circulatory(basis: ModalBasis) -> None:
+    if basis.circulatory is None:
+        return
+    what = "makes circulatory forces, which no method takes yet"
+    film = next((each for each in _bearings(basis) if each.circulates), None)
+    if film is None:
+        raise InputError(f"a part of the structure {what}", key="matrices.circulatory")
+    hint = "give it a symmetric matrix"
+    key, value = f"bearings.{film.name}.stiffness", film.stiffness
+    raise InputError(what, key=key, value=value, hint=hint)
+
+
+def _bearings(basis: ModalBasis) -> Sequence[Bearing]:
+    return () if basis.structure is None else basis.structure.bearings
 
 
 def _velocity_terms(basis: ModalBasis) -> tuple[FloatArray, FloatArray | None]:

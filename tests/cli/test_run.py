@@ -350,3 +350,18 @@ def test_version_and_help(call: Output) -> None:
         status, output, _ = call(*arguments)
         assert status == 0
         assert all(word in output for word in ("CASE.toml", "--method M", "--out DIR", "--json"))
+
+
+def test_a_bearing_that_no_method_takes_is_named(call: Output, tmp_path: Path) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(
+        "[nodes]\nP = [0, 0, 0]\n"
+        '[masses.disc]\nnode = "P"\nmass = 2.0\n'
+        '[bearings.film]\nnode = "P"\nstiffness = [[2e6, 1e5], [-1e5, 2e6]]\n'
+        '[[supports]]\nnodes = ["P"]\nfixed = ["dx"]\n'
+        "[basis]\nmodes = 2\n[run]\nduration = 0.1\n"
+    )
+    status, _, error = call("run", str(case))
+    assert status == 2
+    assert error.startswith(f"error: {case}: bearings.film.stiffness: makes circulatory forces")
+    assert error.count("\n") == 1

@@ -150,7 +150,10 @@ BEARING = '[bearings.more]\nnode = "C"\n'
 BAD = [
     (SECTION.format("star"), "sections.more.shape: is not a known kind (got 'star'); known:"),
     ('[sections.more]\nshpe = "tube"\n', "sections.more.shpe: unknown key (got 'tube'); did you"),
-    ("[sections.more]\nradius = 1.0\n", "sections.more.shape: is missing; what kind it is"),
+    (
+        "[sections.more]\nradius = 1.0\n",
+        "sections.more.shape: is missing; known: rectangle, circle, tube, general",
+    ),
     (TUBE + "outer_radius = 0.1\n", "sections.more.thickness: is missing"),
     (TUBE + "outer_radius = 0.1\nthickness = 0.1\n", "sections.more.thickness: the wall fills"),
     (TUBE + "outer_radius = -0.1\nthickness = 0.1\n", "outer_radius: must be positive (got -0.1)"),

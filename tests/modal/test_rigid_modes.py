@@ -145,6 +145,10 @@ def test_imported_matrices_are_held_to_the_same() -> None:
     with pytest.raises(InputError, match="a loose piece: R, free in translation along x; join"):
         ModalBasis.from_structure(model, modes=1)
     assert ModalBasis.from_structure(model, modes=1, rigid_modes=1).omega2[0] == 0.0
+    nothing = Matrices(stiffness=np.zeros((3, 3)), mass=np.eye(3), dofs=dofs)
+    with pytest.raises(InputError, match=r"zero everywhere: .* If so, say rigid_modes = 3$"):
+        ModalBasis.from_structure(nothing, modes=1)
+    assert ModalBasis.from_structure(nothing, modes=1, rigid_modes=3).omega2[0] == 0.0
     odd = np.array([[1.0, -2.0, 0.0], [-2.0, 4.0, 0.0], [0.0, 0.0, 1.0]])  # P moves twice as Q
     model = Matrices(stiffness=odd, mass=np.eye(3), dofs=dofs)
     with pytest.raises(InputError, match=r"a mechanism: motion of P\.dx, Q\.dx; give positions"):

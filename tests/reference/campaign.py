@@ -24,6 +24,7 @@ from .several.verdict import LARGEST_GROWTH, Verdict, compare
 
 SECONDS_BETWEEN_LINES = 20.0
 PRECISE_EVENTS = 50
+LARGEST_RESIDUAL = 1e-9
 FAMILIES = {
     "constant": random_several,
     "coupled": random_coupled,
@@ -73,9 +74,11 @@ class Summary:
     false: int = 0
     undecidable: int = 0
     inexact: int = 0
+    unbalanced: int = 0
     broken: int = 0
     worst_error: float = 0.0
     worst_excess: float = 0.0
+    worst_energy: float = 0.0
     refusals: Counter[str] = field(default_factory=Counter)
 
     def add(self, one: Outcome) -> str | None:
@@ -89,6 +92,7 @@ class Summary:
         self.events += verdict.events
         self.worst_error = max(self.worst_error, verdict.error)
         self.worst_excess = max(self.worst_excess, verdict.excess)
+        self.worst_energy = max(self.worst_energy, verdict.energy)
         if verdict.undecidable:
             self.undecidable += 1
         elif difference is not None:
@@ -102,22 +106,28 @@ class Summary:
                 f"error {verdict.error:.1e} is {verdict.excess:.1f} times what is allowed, "
                 f"growth {verdict.growth:.1e}, {verdict.events} events"
             )
+        if verdict.energy > LARGEST_RESIDUAL:
+            self.unbalanced += 1
+            return f"energy residual {verdict.energy:.1e}"
         return None
 
     @property
     def passed(self) -> bool:
         """Whether nothing failed."""
-        return not (self.missed or self.false or self.inexact or self.broken)
+        return not (self.missed or self.false or self.inexact or self.unbalanced or self.broken)
 
     def lines(self) -> Iterator[str]:
         """Yield the summary."""
         yield (
             f"{self.problems} problems, {self.events} events: {self.missed} missed, "
             f"{self.false} false, {self.undecidable} decided by rounding, "
-            f"{self.inexact} inexact, {self.broken} not judged, "
+            f"{self.inexact} inexact, {self.unbalanced} unbalanced, {self.broken} not judged, "
             f"{self.refusals.total()} refused"
         )
-        yield f"worst error {self.worst_error:.1e}, {self.worst_excess:.2g} of what is allowed"
+        yield (
+            f"worst error {self.worst_error:.1e}, {self.worst_excess:.2g} of what is allowed; "
+            f"worst energy residual {self.worst_energy:.1e}"
+        )
         for message, count in self.refusals.most_common():
             yield f"{count} refused: {message}"
 

@@ -14,6 +14,7 @@ def check(problem: SeveralStops) -> None:
     verdict = compare(problem)
     assert verdict.difference is None or verdict.undecidable
     assert verdict.excess < 1.0
+    assert verdict.energy < 1e-9
 
 
 @pytest.mark.parametrize("seed", range(1000, 1060))

@@ -250,7 +250,7 @@ def test_bad_masses_are_refused(changes: dict[str, Any], message: str) -> None:
 BAD_SPRINGS: list[tuple[dict[str, Any], str]] = [
     ({}, "stiffness: a spring needs stiffness or damping"),
     ({"stiffness": 3.0}, "stiffness: one number needs a direction"),
-    ({"stiffness": "3"}, "stiffness: one number needs a direction"),
+    ({"stiffness": "3"}, "stiffness: must be a number"),
     ({"stiffness": "3", "other": "Q"}, "stiffness: must be a number"),
     ({"stiffness": (1.0, 2.0)}, "stiffness: must be a number, six numbers or a symmetric matrix"),
     ({"stiffness": (1, 2, 3, 4, 5, math.inf)}, "stiffness: must be finite"),
@@ -292,3 +292,57 @@ def test_parts_name_their_nodes() -> None:
         pair(Spring("s", node="P", other="Q", stiffness=1.0))
     with pytest.raises(InputError, match=r"^springs: this name is used twice"):
         pair(*[Spring("s", node="P", stiffness=(1, 1, 1, 1, 1, 1))] * 2)
+
+
+@pytest.mark.parametrize(
+    "inertia",
+    [
+        (1.0, 1.0, 5.0),
+        (0.0, 1.0, 2.0),
+        (1.0, 1.0, 2.0001),
+        (3.0, 3.0, 1.0, 2.5, 0.0, 0.0),  # principal moments 5.5, 0.5 and 1
+    ],
+)
+def test_moments_of_inertia_of_no_body_are_refused(inertia: tuple[float, ...]) -> None:
+    with pytest.raises(InputError, match=r"^inertia: no body has principal moments of .*each is"):
+        PointMass("m", node="P", mass=1.0, inertia=inertia)
+
+
+@given(st.lists(st.floats(0.1, 10.0), min_size=9, max_size=9), st.floats(1e-6, 1e6))
+def test_moments_of_inertia_of_every_body_are_taken(places: list[float], scale: float) -> None:
+    """Three points of mass make a body, flat ones too; the sum is then exact but for rounding."""
+    points = np.array(places).reshape(3, 3)
+    points -= points.mean(axis=0)
+    tensor = scale * sum((r @ r) * np.eye(3) - np.outer(r, r) for r in points)
+    assert PointMass("m", node="P", mass=1.0, inertia=tensor).remarks == ()
+
+
+def test_inertia_about_one_axis_alone_is_told() -> None:
+    """Decks of beams have it, for the one rotation that matters."""
+    wheel = PointMass("wheel", node="P", mass=2.0, inertia=(0.3, 0.0, 0.0))
+    (line,) = wheel.remarks
+    assert line == "mass 'wheel' has inertia about one axis alone, which no body has"
+    structure = Structure(nodes={"P": (0, 0, 0)}, masses=[wheel])
+    assert ModalBasis.from_structure(structure, modes=1).remarks[-1] == line
+
+
+def test_a_negative_spring_is_told() -> None:
+    """It may be meant, as with a magnet; the modes say what it does."""
+    with pytest.raises(InputError, match=r"stiffness: is negative, and one number needs a direct"):
+        Spring("magnet", node="P", stiffness=-100.0)
+    magnet = Spring("magnet", node="P", stiffness=(-100.0, 0.0, 0.0, 0.0, 0.0, 0.0), damping=None)
+    assert magnet.remarks == ("spring 'magnet' has negative stiffness: it pushes away",)
+    assert Spring("s", node="P", damping=-np.eye(6)).remarks == (
+        "spring 's' has negative damping: it feeds energy",
+    )
+    assert Spring("s", node="P", other="Q", stiffness=5.0, damping=0.0).remarks == ()
+    pulled = Structure(
+        nodes={"P": (0, 0, 0)},
+        masses=[PointMass("m", node="P", mass=1.0)],
+        springs=[magnet],
+        supports=[Support(nodes="P", fixed=("dy", "dz"))],
+    )
+    assert ModalBasis.from_structure(pulled, modes=1).remarks == (
+        "the structure is unstable in mode 1: it moves away by itself",
+        "spring 'magnet' has negative stiffness: it pushes away",
+    )

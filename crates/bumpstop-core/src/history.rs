@@ -3,7 +3,7 @@
 use crate::energy::{self, Ledger};
 use crate::error::{Error, Result, check_length};
 use crate::impacts::{Impact, Sample};
-use crate::law::{Law, Local, State, project};
+use crate::law::{Law, State, project};
 use crate::method::fixed_step::StepRecord;
 use crate::method::piecewise_linear::PhaseRecord;
 use crate::problem::Problem;
@@ -119,7 +119,7 @@ impl<L: Law> History<L> {
     }
 
     /// Shows modal displacement, velocity and law states at each time.
-    fn visit(&self, times: &[f64], mut see: impl FnMut(f64, &[f64], &[f64], &[State])) {
+    fn visit(&self, times: &[f64], mut see: impl FnMut(&[f64], &[f64], &[State])) {
         let modes = self.problem.system.modes();
         match &self.record {
             Record::Phases(record) => record.visit(times, modes, &mut see),
@@ -127,10 +127,8 @@ impl<L: Law> History<L> {
                 let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
                 for &time in times {
                     record.sample(time, &mut q, &mut v);
-                    let states: Vec<State> = (self.problem.laws.iter())
-                        .map(|law| law.sampled_state(&project(law, &q), &project(law, &v)))
-                        .collect();
-                    see(time, &q, &v, &states);
+                    let known = record.states_at(time);
+                    see(&q, &v, &sampled_states(&self.problem, known, &q, &v));
                 }
             }
         }
@@ -144,10 +142,10 @@ impl<L: Law> History<L> {
         self.check_times(times)?;
         let modes = self.problem.system.modes();
         let mut rows = Vec::with_capacity(times.len() * modes);
-        self.visit(times, |time, q, v, states| match derivative {
+        self.visit(times, |q, v, states| match derivative {
             Derivative::Displacement => rows.extend_from_slice(q),
             Derivative::Velocity => rows.extend_from_slice(v),
-            Derivative::Acceleration => rows.extend(self.acceleration(time, q, v, states)),
+            Derivative::Acceleration => rows.extend(self.acceleration(q, v, states)),
         });
         Ok(rows)
     }
@@ -168,9 +166,8 @@ impl<L: Law> History<L> {
     }
 
     /// From the equation of motion.
-    fn acceleration(&self, time: f64, q: &[f64], v: &[f64], states: &[State]) -> Vec<f64> {
-        let mut forces = vec![0.0; q.len()];
-        self.problem.forcing.at(time, &mut forces);
+    fn acceleration(&self, q: &[f64], v: &[f64], states: &[State]) -> Vec<f64> {
+        let mut forces = self.problem.forcing.forces().to_vec();
         for (law, state) in self.problem.laws.iter().zip(states) {
             let force = law.force(*state, &project(law, q), &project(law, v));
             for (row, f) in law.rows().iter().zip(force) {
@@ -202,7 +199,7 @@ impl<L: Law> History<L> {
         self.check_times(times)?;
         let which = &self.problem.laws[law];
         let mut columns = [const { Vec::new() }; 3];
-        self.visit(times, |_, q, v, states| {
+        self.visit(times, |q, v, states| {
             let (position, rate) = (project(which, q), project(which, v));
             let (distance, speed) = which.distance(&position, &rate);
             columns[0].push(distance);
@@ -251,11 +248,11 @@ impl<L: Law> History<L> {
     fn law_samples(&self, law: usize, times: &[f64]) -> Vec<Sample> {
         let which = &self.problem.laws[law];
         let mut samples = Vec::with_capacity(times.len());
-        self.visit(times, |time, q, v, states| {
+        self.visit(times, |q, v, states| {
             let (position, rate) = (project(which, q), project(which, v));
             let (distance, speed) = which.distance(&position, &rate);
             samples.push(Sample {
-                time,
+                time: times[samples.len()],
                 distance,
                 speed,
                 force: which.force(states[law], &position, &rate)[0],
@@ -288,12 +285,12 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
     let mut v = vec![0.0; modes];
     let mut ledgers: Vec<Ledger> = Vec::with_capacity(record.steps + 1);
     let mut before: Option<Powers> = None;
-    let mut changing_work = 0.0;
     for n in 0..=record.steps {
         let q = record.displacement(n);
         record.velocity(n, &mut v);
         let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, &v);
-        let powers = Powers::new(problem, n as f64 * record.dt, q, &v);
+        let known = record.states(n);
+        let powers = Powers::new(problem, known, q, &v);
         let mut ledger = Ledger {
             kinetic,
             elastic,
@@ -304,8 +301,6 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
         };
         if let (Some(previous), Some(last)) = (&before, ledgers.last()) {
             let half = 0.5 * record.dt;
-            changing_work += half * (previous.load + powers.load);
-            ledger.load_work += changing_work;
             ledger.modal_dissipation =
                 last.modal_dissipation + half * (previous.modal + powers.modal);
             for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
@@ -324,37 +319,46 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
     ledgers
 }
 
-/// Powers and stored energies at one sampled instant.
+/// Dissipated powers and stored energies at one sampled instant.
 struct Powers {
     modal: f64,
-    /// Of the loads that change in time.
-    load: f64,
     laws: Vec<f64>,
     stored: Vec<f64>,
     states: Vec<State>,
 }
 
 impl Powers {
-    fn new<L: Law>(problem: &Problem<L>, time: f64, q: &[f64], v: &[f64]) -> Self {
-        let locals: Vec<(State, Local<f64>, Local<f64>)> = (problem.laws.iter())
-            .map(|law| {
-                let (position, rate) = (project(law, q), project(law, v));
-                (law.sampled_state(&position, &rate), position, rate)
-            })
-            .collect();
-        let both = || problem.laws.iter().zip(&locals);
+    fn new<L: Law>(problem: &Problem<L>, known: &[State], q: &[f64], v: &[f64]) -> Self {
+        let states = sampled_states(problem, known, q, v);
+        let laws = || problem.laws.iter().zip(&states);
         Self {
             modal: (problem.system.damping().iter().zip(v))
                 .map(|(c, v)| c * v * v)
                 .sum(),
-            load: problem.forcing.changing_power(time, v),
-            laws: both()
-                .map(|(law, (state, x, v))| law.dissipated_power(*state, x, v))
+            laws: laws()
+                .map(|(law, state)| {
+                    let (position, velocity) = (project(law, q), project(law, v));
+                    law.dissipation(*state).at(&position, &velocity)
+                })
                 .collect(),
-            stored: both().map(|(law, (s, x, _))| law.stored(*s, x)).collect(),
-            states: locals.iter().map(|(state, ..)| *state).collect(),
+            stored: laws()
+                .map(|(law, state)| law.stored(*state, &project(law, q)))
+                .collect(),
+            states,
         }
     }
+}
+
+/// The laws' states that a motion shows, after those that a scheme saw at its last step.
+fn sampled_states<L: Law>(
+    problem: &Problem<L>,
+    known: &[State],
+    q: &[f64],
+    v: &[f64],
+) -> Vec<State> {
+    (problem.laws.iter().zip(known))
+        .map(|(law, known)| law.sampled_state(*known, &project(law, q), &project(law, v)))
+        .collect()
 }
 
 /// Linear between two ledgers.

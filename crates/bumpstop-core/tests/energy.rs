@@ -2,7 +2,7 @@
 //! shows in the residual, with every method.
 
 use bumpstop_core::forcing::Forcing;
-use bumpstop_core::law::{Guard, Law, Local, Piece, State, Stop};
+use bumpstop_core::law::{Guard, Law, Local, LocalMotion, Piece, Power, State, Stop};
 use bumpstop_core::method::fixed_step::Step;
 use bumpstop_core::method::{Method, simulate};
 use bumpstop_core::number::{Dual, Number};
@@ -24,11 +24,11 @@ impl Law for Corrupted {
     fn state_name(&self, state: State) -> &'static str {
         self.stop.state_name(state)
     }
-    fn initial_state(&self, motion: &[Local<f64>; 4], zero: &[f64; 4]) -> State {
-        self.stop.initial_state(motion, zero)
+    fn initial_state(&self, motion: &LocalMotion) -> State {
+        self.stop.initial_state(motion)
     }
-    fn sampled_state(&self, position: &Local<f64>, velocity: &Local<f64>) -> State {
-        self.stop.sampled_state(position, velocity)
+    fn sampled_state(&self, previous: State, x: &Local<f64>, v: &Local<f64>) -> State {
+        self.stop.sampled_state(previous, x, v)
     }
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
         (self.stop.force(state, position, velocity)).map(|force| force * T::of(self.factor))
@@ -45,14 +45,19 @@ impl Law for Corrupted {
     fn guard(&self, state: State, index: usize) -> Guard {
         self.stop.guard(state, index)
     }
-    fn next_state(&self, state: State, guard: usize) -> State {
-        self.stop.next_state(state, guard)
+    fn next_state(
+        &self,
+        state: State,
+        guard: usize,
+        motion: impl FnOnce() -> LocalMotion,
+    ) -> State {
+        self.stop.next_state(state, guard, motion)
     }
     fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T {
         self.stop.stored(state, position)
     }
-    fn dissipated_power<T: Number>(&self, state: State, x: &Local<T>, v: &Local<T>) -> T {
-        self.stop.dissipated_power(state, x, v)
+    fn dissipation(&self, state: State) -> Power {
+        self.stop.dissipation(state)
     }
     fn switch_loss(&self, before: State, after: State, position: &Local<f64>) -> f64 {
         self.stop.switch_loss(before, after, position)

@@ -4,7 +4,7 @@ mod flow;
 
 use bumpstop_core::forcing::Forcing;
 use bumpstop_core::history::Derivative;
-use bumpstop_core::law::{COORDINATES, Guard, Law, Local, Piece, State};
+use bumpstop_core::law::{COORDINATES, Guard, Law, Local, LocalMotion, Piece, Power, State};
 use bumpstop_core::method::{Method, simulate};
 use bumpstop_core::number::Number;
 use bumpstop_core::problem::Problem;
@@ -27,21 +27,14 @@ impl Law for Constant {
     fn state_name(&self, _: State) -> &'static str {
         "constant"
     }
-    fn initial_state(&self, _: &[Local<f64>; 4], _: &[f64; 4]) -> State {
-        State(0)
+    fn initial_state(&self, _: &LocalMotion) -> State {
+        State::FIRST
     }
-    fn sampled_state(&self, _: &Local<f64>, _: &Local<f64>) -> State {
-        State(0)
+    fn sampled_state(&self, state: State, _: &Local<f64>, _: &Local<f64>) -> State {
+        state
     }
     fn force<T: Number>(&self, _: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
-        std::array::from_fn(|i| {
-            let mut force = T::of(self.piece.constant[i]);
-            for j in 0..COORDINATES {
-                force -= T::of(self.piece.stiffness[i][j]) * position[j];
-                force -= T::of(self.piece.damping[i][j]) * velocity[j];
-            }
-            force
-        })
+        self.piece.force(position, velocity)
     }
     fn piece(&self, _: State) -> Option<Piece> {
         Some(self.piece)
@@ -52,14 +45,14 @@ impl Law for Constant {
     fn guard(&self, _: State, _: usize) -> Guard {
         unreachable!("it has no guards")
     }
-    fn next_state(&self, state: State, _: usize) -> State {
+    fn next_state(&self, state: State, _: usize, _: impl FnOnce() -> LocalMotion) -> State {
         state
     }
     fn stored<T: Number>(&self, _: State, _: &Local<T>) -> T {
         T::of(0.0)
     }
-    fn dissipated_power<T: Number>(&self, _: State, _: &Local<T>, _: &Local<T>) -> T {
-        T::of(0.0)
+    fn dissipation(&self, _: State) -> Power {
+        Power::NONE
     }
     fn switch_loss(&self, _: State, _: State, _: &Local<f64>) -> f64 {
         0.0

@@ -6,7 +6,7 @@ use bumpstop_core::energy::Ledger;
 use bumpstop_core::error::Result;
 use bumpstop_core::history::{self, Derivative};
 use bumpstop_core::impacts::Impact;
-use bumpstop_core::law::{Law, Stop};
+use bumpstop_core::law::{AnyLaw, Law};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::exceptions::{PyIndexError, PyValueError};
@@ -21,12 +21,12 @@ type Term = fn(&Impact) -> f64;
 /// What a run leaves behind; it can be sampled anywhere in [0, duration].
 #[pyclass(frozen, module = "bumpstop._core")]
 pub struct History {
-    inner: history::History<Stop>,
+    inner: history::History<AnyLaw>,
     seconds: Mutex<f64>,
 }
 
 impl History {
-    pub(crate) fn new(inner: history::History<Stop>, seconds: f64) -> Self {
+    pub(crate) fn new(inner: history::History<AnyLaw>, seconds: f64) -> Self {
         Self {
             inner,
             seconds: Mutex::new(seconds),
@@ -37,7 +37,7 @@ impl History {
     fn read<T: Send>(
         &self,
         py: Python<'_>,
-        reader: impl FnOnce(&history::History<Stop>) -> T + Send,
+        reader: impl FnOnce(&history::History<AnyLaw>) -> T + Send,
     ) -> T {
         let (value, seconds) = py.detach(|| {
             let start = Instant::now();

@@ -47,6 +47,21 @@ impl Stop {
     }
 }
 
+/// A law of any kind, as Python hands it over.
+#[derive(FromPyObject)]
+pub enum LawPart<'py> {
+    Stop(PyRef<'py, Stop>),
+}
+
+impl LawPart<'_> {
+    /// The core's law.
+    pub fn law(&self) -> law::AnyLaw {
+        match self {
+            Self::Stop(stop) => stop.0.clone().into(),
+        }
+    }
+}
+
 /// The numbers of an array of any layout.
 pub(crate) fn values(array: &PyReadonlyArray1<f64>) -> Vec<f64> {
     array.as_array().iter().copied().collect()

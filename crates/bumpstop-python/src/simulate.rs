@@ -2,7 +2,7 @@
 
 use crate::core_error;
 use crate::history::History;
-use crate::parts::{Stop, System, values};
+use crate::parts::{LawPart, System, values};
 use bumpstop_core::error::Error;
 use bumpstop_core::forcing::Forcing;
 use bumpstop_core::method::fixed_step::Step;
@@ -25,7 +25,7 @@ const BETWEEN_REPORTS: Duration = Duration::from_millis(100);
 pub fn simulate(
     py: Python<'_>,
     system: &System,
-    laws: Vec<PyRef<'_, Stop>>,
+    laws: Vec<LawPart<'_>>,
     force: PyReadonlyArray1<f64>,
     displacement: PyReadonlyArray1<f64>,
     velocity: PyReadonlyArray1<f64>,
@@ -38,7 +38,7 @@ pub fn simulate(
     let method = method_named(method, dt, beyond_stability_limit)?;
     let problem = Problem::new(
         system.0.clone(),
-        laws.iter().map(|stop| stop.0.clone()).collect(),
+        laws.iter().map(LawPart::law).collect(),
         Forcing::constant(values(&force)).map_err(core_error)?,
         values(&displacement),
         values(&velocity),
@@ -61,8 +61,8 @@ pub fn simulate(
 
 /// Largest stable step of a fixed-step method, in s.
 #[pyfunction]
-pub fn stability_limit(system: &System, laws: Vec<PyRef<'_, Stop>>, method: &str) -> PyResult<f64> {
-    let laws: Vec<_> = laws.iter().map(|stop| stop.0.clone()).collect();
+pub fn stability_limit(system: &System, laws: Vec<LawPart<'_>>, method: &str) -> PyResult<f64> {
+    let laws: Vec<_> = laws.iter().map(LawPart::law).collect();
     match method {
         symplectic_euler::NAME => Ok(symplectic_euler::stability_limit(&system.0, &laws)),
         central_difference::NAME => Ok(central_difference::stability_limit(&system.0, &laws)),

@@ -24,7 +24,7 @@ from bumpstop.modal.selection import ModeSelection, mode_selection
 from bumpstop.structure.dofs import DOFS, Dof, Place
 from bumpstop.structure.free_motions import free_motions
 from bumpstop.structure.gauge import Gauge
-from bumpstop.structure.model import LinearModel, StrainModel
+from bumpstop.structure.model import LinearModel, RemarkingModel, StrainModel
 from bumpstop.structure.structure import Structure
 
 # What a run from a structure's modes alone has no use for is imported where it is used.
@@ -371,10 +371,12 @@ class ModalBasis:
     @property
     def remarks(self) -> tuple[str, ...]:
         """What a user should know of this basis, a line each: motions free of strain first."""
+        model = self.model.remarks if isinstance(self.model, RemarkingModel) else ()
         return (
             *rigid_told(self.rigid_modes),
             *unstable_told(self.omega2),
             *feeding_told(self.damping_matrix),
+            *model,
             *self.dropped,
             *self.neglected,
         )

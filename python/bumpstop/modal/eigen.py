@@ -16,7 +16,7 @@ from bumpstop.modal.selected import Range, chosen, range_of
 from bumpstop.modal.selection import LowestModes, ModesAround, ModeSelection
 from bumpstop.modal.signs import largest_positive
 from bumpstop.structure.graph import components
-from bumpstop.structure.model import LinearModel
+from bumpstop.structure.model import VibratingModel
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
 __all__ = ["Modes", "model_modes"]
@@ -33,7 +33,7 @@ class Modes(NamedTuple):
     """The proof that none is missing; None where rounding is too large for one."""
 
 
-def model_modes(model: LinearModel, selection: ModeSelection) -> Modes:
+def model_modes(model: VibratingModel, selection: ModeSelection) -> Modes:
     """Return the modes asked for.
 
     Rigid modes have ``omega2`` exactly zero and the shapes of exact rigid motions; the

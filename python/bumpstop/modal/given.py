@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from bumpstop.errors import InputError
 from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.model import LinearModel
 
-__all__ = ["given_components", "given_labels", "given_vectors", "modal_masses"]
+__all__ = ["given_components", "given_labels", "given_vectors", "modal_masses", "one_or_each"]
 
 ROUNDING = 1e-9
 """Motion of a held dof below this, relative to the largest of its vector, is rounding."""
@@ -64,13 +64,26 @@ def modal_masses(modal_mass: object, modes: int) -> FloatArray:
     InputError
         If a mass is not positive, or their number is not that of the modes.
     """
-    if np.ndim(modal_mass) == 0:  # type: ignore[arg-type]  # object: the check is what is done here
-        return np.full(modes, positive("modal_mass", modal_mass))
-    masses = series("modal_mass", modal_mass)
-    if len(masses) != modes:
+    return one_or_each("modal_mass", modal_mass, modes, positive)
+
+
+def one_or_each(
+    key: str, value: object, modes: int, checked: Callable[[str, object], float]
+) -> FloatArray:
+    """Return one number a mode (modes,), from one for all or one for each.
+
+    Raises
+    ------
+    InputError
+        If a number is refused by the check, or there are not as many as modes.
+    """
+    if np.ndim(value) == 0:  # type: ignore[arg-type]  # object: the check is what is done here
+        return np.full(modes, checked(key, value))
+    numbers = series(key, value)
+    if len(numbers) != modes:
         what = f"must be one number, or one for each of the {modes} modes"
-        raise InputError(what, key="modal_mass", value=modal_mass)
-    return np.array([positive("modal_mass", mass) for mass in masses])
+        raise InputError(what, key=key, value=value)
+    return np.array([checked(key, number) for number in numbers])
 
 
 def given_components(shapes: object, modes: int) -> FloatArray:

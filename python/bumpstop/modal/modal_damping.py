@@ -6,9 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, not_negative, one_of, series
+from bumpstop.arguments import FloatArray, not_negative, one_of
 from bumpstop.errors import InputError
 from bumpstop.modal.damping import Damping, DampingLaw, angular_frequencies
+from bumpstop.modal.given import one_or_each
 
 __all__ = ["ModalDamping", "modal_damping", "with_companions"]
 
@@ -64,7 +65,7 @@ def modal_damping(
         if dampers is None and not own[omega2 <= 0.0].any():
             return ModalDamping(_ratio_of(own, omega2), None, None)
     else:
-        ratio = _ratios(damping, len(omega2))
+        ratio = one_or_each("damping", damping, len(omega2), not_negative)
         if dampers is None:
             return ModalDamping(ratio, None, None)
         own = 2.0 * ratio * angular_frequencies(omega2)
@@ -108,18 +109,7 @@ def with_companions(damping: Damping, own: float | None, modes: int, companions:
         hint = "with a list of ratios for the modes, give the static shapes their own"
         raise InputError("is missing", key="static_damping", hint=hint)
     ratio = not_negative("static_damping", damping if own is None else own)
-    return [*_ratios(damping, modes).tolist(), *[ratio] * companions]
-
-
-def _ratios(damping: object, modes: int) -> FloatArray:
-    """Return one ratio of critical damping a mode, from one for all or one for each."""
-    if np.ndim(damping) == 0:  # type: ignore[arg-type]  # object: the check is what is done here
-        return np.full(modes, not_negative("damping", damping))
-    ratios = series("damping", damping)
-    if len(ratios) != modes:
-        what = f"must be one number, or one for each of the {modes} modes"
-        raise InputError(what, key="damping", value=damping)
-    return np.array([not_negative("damping", ratio) for ratio in ratios])
+    return [*one_or_each("damping", damping, modes, not_negative).tolist(), *[ratio] * companions]
 
 
 def _ratio_of(damping: FloatArray, omega2: FloatArray) -> FloatArray:

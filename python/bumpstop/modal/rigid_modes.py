@@ -10,6 +10,7 @@ from bumpstop.errors import InputError
 from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.free_motions import FreeMotion, free_motions
 from bumpstop.structure.model import LinearModel
+from bumpstop.structure.structure import Structure
 
 __all__ = ["require_rigid_modes"]
 
@@ -47,6 +48,9 @@ def require_rigid_modes(model: LinearModel, announced: int | None) -> None:
 def _refuse_unannounced(model: LinearModel) -> None:
     motions = free_motions(model)
     announce = f"say rigid_modes = {len(motions)}"
+    if len(model.stiffness.values) == 0 and not isinstance(model, Structure):
+        what = "the stiffness matrix is zero everywhere: nothing resists"
+        raise InputError(what, key="rigid_modes", hint=f"is it the right one? If so, {announce}")
     mechanisms = [motion for motion in motions if motion.is_mechanism]
     if mechanisms:
         unknown = "" if _knows_positions(model) else "give positions, which tell what is rigid, or "

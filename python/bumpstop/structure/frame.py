@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray
+from bumpstop.arguments import FloatArray, Vector
 
 __all__ = ["local_axes", "rigid_motions", "turned"]
 
@@ -76,6 +76,25 @@ def rigid_motions(positions: FloatArray, about: FloatArray) -> FloatArray:
     motions[:, 0, 4], motions[:, 2, 4] = z, -x
     motions[:, 1, 5], motions[:, 0, 5] = x, -y
     return motions.reshape(-1, 6)
+
+
+def rigid_field(
+    positions: FloatArray, *, translation: Vector, rotation: Vector, about: Vector
+) -> FloatArray:
+    """Return a small rigid motion of points in space, (6 points,): each six dofs of one point.
+
+    Parameters
+    ----------
+    positions
+        Where the points are in m, (points, 3).
+    translation, rotation
+        Along and about the global axes, in m and rad (m/s and rad/s for a velocity).
+    about
+        Where the axes of rotation meet, in m.
+    """
+    motions = rigid_motions(positions, np.array(about, dtype=float))
+    field: FloatArray = motions @ np.array([*translation, *rotation], dtype=float)
+    return field
 
 
 def _unit(vectors: FloatArray) -> FloatArray:

@@ -17,6 +17,9 @@ from bumpstop.structure.tensors import Axes, Rows, axes_pair, plain_rows, symmet
 
 __all__ = ["PointMass"]
 
+_ROUNDING = 1e-9
+"""Inertia this small beside the largest moment is what numbers of ten digits leave."""
+
 
 @dataclass(frozen=True)
 class PointMass:
@@ -33,7 +36,8 @@ class PointMass:
     inertia
         Moments of inertia about its centre of mass, in kg m2, in its own axes: three for
         principal axes, six (xx, yy, zz, xy, yz, xz) or a symmetric 3 x 3 matrix. The products
-        are entries of that matrix: xy is minus the integral of x y over the mass.
+        are entries of that matrix: xy is minus the integral of x y over the mass. No principal
+        moment may exceed the sum of the other two, as those of no body do; one alone is taken.
     offset
         Its centre of mass from the node, along the global axes, in m.
     axes
@@ -46,8 +50,8 @@ class PointMass:
     Raises
     ------
     InputError
-        If a value is not finite, the mass is negative or nothing, the inertia is not positive
-        or not symmetric, or what spins is not round.
+        If a value is not finite, the mass is negative or nothing, the inertia is negative, not
+        symmetric or that of no body, or what spins is not round.
 
     Examples
     --------
@@ -93,6 +97,13 @@ class PointMass:
         return Block(node, mass=mass, gyroscopic=self._gyroscopic(axes[0]))
 
     @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a user should know of this mass, a line each."""
+        if np.count_nonzero(_principal(self._tensor)) != 1:
+            return ()
+        return (f"mass {self.name!r} has inertia about one axis alone, which no body has",)
+
+    @property
     def _tensor(self) -> FloatArray:
         """Inertia in the body's own axes, (3, 3)."""
         return np.zeros((3, 3)) if self.inertia is None else np.array(self.inertia)
@@ -128,7 +139,18 @@ def _inertia(value: object) -> Rows:
         what = "must be three or six numbers, or a symmetric matrix of 3 x 3"
         raise InputError(what, key="inertia", value=value)
     tensor = symmetric("inertia", rows, (3,))
-    least = np.linalg.eigvalsh(np.array(tensor))[0]
-    if least < -1e-12 * np.abs(tensor).max():
+    least, middle, largest = _principal(np.array(tensor))
+    if least < 0.0:
         raise InputError("no moment of inertia may be negative", key="inertia", value=value)
+    if middle > 0.0 and largest > (least + middle) * (1.0 + _ROUNDING):
+        what = f"no body has principal moments of {least:.6g}, {middle:.6g} and {largest:.6g}"
+        hint = "each is at most the sum of the other two"
+        raise InputError(what, key="inertia", value=value, hint=hint)
     return tensor
+
+
+def _principal(tensor: FloatArray) -> FloatArray:
+    """Return the principal moments, (3,), ascending; rounding beside the largest is zero."""
+    moments: FloatArray = np.array(np.linalg.eigvalsh(tensor), dtype=np.float64)
+    moments[np.abs(moments) <= _ROUNDING * np.abs(moments).max()] = 0.0
+    return moments

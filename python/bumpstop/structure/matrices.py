@@ -14,7 +14,7 @@ from bumpstop.structure.assembly import KINDS
 from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.elimination import Freedom
 from bumpstop.structure.forms import LinearForm
-from bumpstop.structure.frame import rigid_motions
+from bumpstop.structure.frame import rigid_field, rigid_motions
 from bumpstop.structure.given import GivenMatrix, skew_matrix, symmetric_matrix
 from bumpstop.structure.graph import components
 from bumpstop.structure.mobility import Mobility, mobility
@@ -60,8 +60,8 @@ class Matrices:
     ------
     InputError
         If a matrix is not finite, not symmetric or of another size than the dofs; if a dof
-        appears twice or is not known; if stiffness or mass is zero everywhere, mass is negative,
-        or a motion without mass is damped or has negative stiffness.
+        appears twice or is not known; if mass is zero everywhere or negative for some motion, or
+        a motion without mass is damped or has negative stiffness.
 
     Examples
     --------
@@ -113,8 +113,9 @@ class Matrices:
         self.fixed = _dofs("fixed", fixed) if len(fixed) else ()
         for number, (node, dof) in enumerate(self.fixed):
             self._number(node, dof, f"fixed[{number}]", f"fixed[{number}]")
-        for key, what in (("stiffness", "resists"), ("mass", "has inertia")):
-            self._refuse_nothing(key, what)
+        if len(self.mass.values) == 0:
+            what, hint = "is zero everywhere: nothing has inertia", "is it the right matrix?"
+            raise InputError(what, key="mass", hint=hint)
         self._refuse_negative_mass()
         self._refuse_indefinite_mass()
         self._mobility  # noqa: B018  # says what is wrong now, not when modes are asked for
@@ -188,9 +189,9 @@ class Matrices:
             for node, dof in self.dofs:
                 if dof in DOFS[:3]:
                     self.position(node)
-        motions = self._motions(np.array(about, dtype=float))
-        field: FloatArray = motions @ np.array([*translation, *rotation], dtype=float)
-        return field
+        places = np.array([self.positions.get(node, about) for node in self._nodes])
+        field = rigid_field(places, translation=translation, rotation=rotation, about=about)
+        return field[self._rows]
 
     def rigid_shapes(self) -> FloatArray:
         """Return all motions of the free dofs that strain nothing, (free, motions).
@@ -242,12 +243,20 @@ class Matrices:
 
     def _motions(self, about: FloatArray) -> FloatArray:
         """Return the six rigid motions (dofs, 6); a node of unknown position stays in place."""
-        names = list(dict.fromkeys(node for node, _ in self.dofs))
-        numbers = {node: number for number, node in enumerate(names)}
-        known = np.array([node in self.positions or not self.positions for node in names])
-        places = np.array([self.positions.get(node, tuple(about)) for node in names])
-        motions = rigid_motions(places, about).reshape(len(names), 6, 6) * known[:, None, None]
-        return np.array([motions[numbers[node], DOFS.index(dof)] for node, dof in self.dofs])
+        known = np.array([node in self.positions or not self.positions for node in self._nodes])
+        places = np.array([self.positions.get(node, tuple(about)) for node in self._nodes])
+        motions: FloatArray = rigid_motions(places, about) * np.repeat(known, 6)[:, np.newaxis]
+        return motions[self._rows]
+
+    @cached_property
+    def _nodes(self) -> list[str]:
+        return list(dict.fromkeys(node for node, _ in self.dofs))
+
+    @cached_property
+    def _rows(self) -> IndexArray:
+        """Which of the six dofs of each node the dofs are, (dofs,)."""
+        numbers = {node: number for number, node in enumerate(self._nodes)}
+        return np.array([6 * numbers[node] + DOFS.index(dof) for node, dof in self.dofs])
 
     def _translations(self) -> FloatArray:
         """Return the translations alone, (dofs, 3), which ask for no positions."""
@@ -258,11 +267,6 @@ class Matrices:
         held = [node for node, dof in self.fixed if dof in DOFS[:3] and node in self.positions]
         node = next(iter([*held, *self.positions]), None)
         return np.array(self.positions[node]) if node is not None else np.zeros(3)
-
-    def _refuse_nothing(self, key: str, what: str) -> None:
-        if len(getattr(self, key).values) == 0:
-            hint = "is it the right file or array?"
-            raise InputError(f"is zero everywhere: nothing {what}", key=key, hint=hint)
 
     def _refuse_negative_mass(self) -> None:
         diagonal = self.mass.diagonal()

@@ -10,19 +10,15 @@ from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
-__all__ = ["InertiaModel", "LinearModel", "StrainModel"]
+__all__ = ["InertiaModel", "LinearModel", "RemarkingModel", "StrainModel", "VibratingModel"]
 
 
-class LinearModel(Protocol):
-    """A linear model in space: all that a modal basis asks of a structure.
+class VibratingModel(Protocol):
+    """What modes alone are computed from.
 
     Matrices are on all dofs, supports and relations not yet applied. What can move is told by
     the independent dofs x, with u = ``expansion`` @ x on all dofs and x = u[``free``].
     """
-
-    @property
-    def dofs(self) -> tuple[Dof, ...]:
-        """Node and dof of each row."""
 
     @property
     def free(self) -> IndexArray:
@@ -40,6 +36,20 @@ class LinearModel(Protocol):
     def mass(self) -> SparseMatrix:
         """Symmetric mass matrix; kg, kg m and kg m2."""
 
+    def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
+        """Return expansion' @ matrix @ expansion; what is symmetric stays so to the bit."""
+
+    def rigid_shapes(self) -> FloatArray:
+        """Return all motions that strain nothing, by the independent dofs, (free dofs, r)."""
+
+
+class LinearModel(VibratingModel, Protocol):
+    """A linear model in space: all that a modal basis asks of a structure."""
+
+    @property
+    def dofs(self) -> tuple[Dof, ...]:
+        """Node and dof of each row."""
+
     @property
     def damping(self) -> SparseMatrix:
         """Symmetric damping matrix; N s/m, N s and N m s."""
@@ -51,12 +61,6 @@ class LinearModel(Protocol):
     @property
     def circulatory(self) -> SparseMatrix:
         """Skew-symmetric matrix of displacements; units as stiffness."""
-
-    def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
-        """Return expansion' @ matrix @ expansion; what is symmetric stays so to the bit."""
-
-    def rigid_shapes(self) -> FloatArray:
-        """Return all motions that strain nothing, by the independent dofs, (free dofs, r)."""
 
     def displacement_form(self, node: str, dof: str) -> LinearForm:
         """Return one dof of a node as a form of all dofs."""
@@ -83,6 +87,15 @@ class InertiaModel(Protocol):
 
     def has_inertia(self, form: LinearForm) -> bool:
         """Tell whether a force along a form accelerates masses alone."""
+
+
+@runtime_checkable
+class RemarkingModel(Protocol):
+    """What a model offers beside, if there is something to be said of its parts."""
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a user should know, a line each."""
 
 
 @runtime_checkable

@@ -93,6 +93,16 @@ class Spring:
             damping=self._matrix(joint, self.damping),
         )
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a user should know of this spring, a line each."""
+        told = {"stiffness": "pushes away", "damping": "feeds energy"}
+        return tuple(
+            f"spring {self.name!r} has negative {key}: it {what}"
+            for key, what in told.items()
+            if _is_negative(getattr(self, key))
+        )
+
     def _matrix(self, joint: Joint, constants: Constants | None) -> FloatArray | None:
         if constants is None:
             return None
@@ -126,8 +136,9 @@ class Spring:
         rows = plain_rows(value)
         if not rows:
             if self.other is None and self.axes is None:
-                what = "one number needs a direction"
+                sign = "is negative, and " if finite(key, value) < 0.0 else ""
                 hint = "give the other node, or axes, or six numbers"
+                what = f"{sign}one number needs a direction"
                 raise InputError(what, key=key, value=value, hint=hint)
             return finite(key, value)
         if len(rows) == 6 and not any(isinstance(row, list) for row in rows):
@@ -136,3 +147,12 @@ class Spring:
             what = "must be a number, six numbers or a symmetric matrix of 6 x 6"
             raise InputError(what, key=key, value=value)
         return symmetric(key, value, (6,) if self.other is None else (6, 12))
+
+
+def _is_negative(constants: Constants | None) -> bool:
+    """Tell whether a stiffness is negative for some motion, beyond the rounding of its numbers."""
+    if constants is None:
+        return False
+    given = np.array(constants)
+    values = np.linalg.eigvalsh(given) if given.ndim == 2 else given
+    return bool(np.min(values) < -1e-9 * np.abs(values).max())

@@ -19,7 +19,7 @@ from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.drawn import Line
 from bumpstop.structure.elimination import Freedom, freedom
 from bumpstop.structure.forms import LinearForm
-from bumpstop.structure.frame import rigid_motions
+from bumpstop.structure.frame import rigid_field
 from bumpstop.structure.massless import surely_massive
 from bumpstop.structure.mesh import Mesh, user_nodes
 from bumpstop.structure.mobility import Mobility, mobility
@@ -164,6 +164,12 @@ class Structure:
         """Skew-symmetric part of the stiffness of bearings, on all dofs; as stiffness."""
         return self._assembly.matrix("circulatory")
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a user should know of its parts, a line each."""
+        told = [mass.remarks for mass in self.masses] + [spring.remarks for spring in self.springs]
+        return tuple(remark for remarks in told for remark in remarks)
+
     def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
         """Return a matrix of all dofs as one of the free dofs, expansion' @ matrix @ expansion."""
         return self._freedom.reduced(matrix)
@@ -244,9 +250,8 @@ class Structure:
         about
             Where the axes of rotation meet, in m.
         """
-        motions = rigid_motions(self.mesh.positions, np.array(about, dtype=float))
-        field: FloatArray = motions @ np.array([*translation, *rotation], dtype=float)
-        return field
+        places = self.mesh.positions
+        return rigid_field(places, translation=translation, rotation=rotation, about=about)
 
     @cached_property
     def _rigid_fields(self) -> FloatArray:

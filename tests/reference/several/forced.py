@@ -13,10 +13,10 @@ MOST_KNOTS = 40
 
 
 def random_harmonic(rng: np.random.Generator, shape: Array, omega: Array) -> Harmonic:
-    """Return a harmonic load, now and then on a natural frequency or of none."""
+    """Return a harmonic load, now and then on a natural frequency."""
     frequency = float(rng.uniform(0.1, 1.5) * max(omega.max(), 1.0))
-    if rng.random() < 0.2:
-        frequency = float(rng.choice(omega))  # resonance, or a constant where it is rigid
+    if rng.random() < 0.2 and omega.any():
+        frequency = float(rng.choice(omega[omega > 0]))  # resonance
     return Harmonic(shape, frequency, float(rng.uniform(0, 2 * np.pi)))
 
 

@@ -121,6 +121,7 @@ class Verdict:
     undecidable: bool
     error: float  # of displacement and velocity, relative to the largest
     excess: float  # the same over what is allowed: 1e-10 + 100 eps |V|
+    energy: float  # the core's own residual of its ledger
     growth: float
 
 
@@ -135,7 +136,8 @@ def compare(problem: SeveralStops, judge: Judge | None = None) -> Verdict:
     times = np.sort(np.append(grid, [e.time for e in inside if e.time < horizon]))
     error, excess = state_errors(judge, history, times)
     open_question = difference is not None and undecidable(problem, judge, difference)
-    return Verdict(len(inside), difference, open_question, error, excess, judge.growth)
+    residual = history.energy_residual()
+    return Verdict(len(inside), difference, open_question, error, excess, residual, judge.growth)
 
 
 def state_errors(judge: Judge, history: "History", times: Array) -> tuple[float, float]:

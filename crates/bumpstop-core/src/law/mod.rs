@@ -6,8 +6,14 @@
 //! declare itself piecewise linear by handing over a [`Piece`]; the exact method needs nothing
 //! else.
 
+mod affine;
+mod any;
+mod state;
 mod stop;
 
+pub use affine::{Affine, Power};
+pub use any::AnyLaw;
+pub use state::{LocalMotion, State};
 pub use stop::Stop;
 
 use crate::number::Number;
@@ -18,11 +24,9 @@ pub const COORDINATES: usize = 3;
 /// Local coordinates or forces; those beyond a law's rows are zero.
 pub type Local<T> = [T; COORDINATES];
 
-/// A state of a law, by its number in the law's own list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct State(pub u8);
-
 /// A linear state: force = constant - stiffness x - damping x', in local coordinates.
+///
+/// Stiffness and damping depend on the state's number alone, the constant on its memory too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// Force at the origin at rest, in N.
@@ -44,6 +48,19 @@ impl Piece {
     /// Whether this state acts on the structure.
     pub fn acts(&self) -> bool {
         *self != Self::FREE
+    }
+
+    /// The force, in N.
+    #[inline(always)]
+    pub fn force<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
+        let mut force = self.constant.map(T::of);
+        for (i, force) in force.iter_mut().enumerate() {
+            for j in 0..COORDINATES {
+                *force -= T::of(self.stiffness[i][j]) * position[j];
+                *force -= T::of(self.damping[i][j]) * velocity[j];
+            }
+        }
+        force
     }
 
     /// Whether there may be a force along a coordinate.
@@ -74,12 +91,8 @@ impl Piece {
 pub struct Guard {
     /// Name for the list of events.
     pub name: &'static str,
-    /// Value at the origin at rest.
-    pub constant: f64,
-    /// Factors of the local coordinates.
-    pub position: Local<f64>,
-    /// Factors of the local velocities.
-    pub velocity: Local<f64>,
+    /// Its value.
+    pub function: Affine,
 }
 
 /// A local nonlinearity.
@@ -90,13 +103,13 @@ pub trait Law: Clone + Send + Sync {
     /// The name of a state.
     fn state_name(&self, state: State) -> &'static str;
 
-    /// The state at the start of a run, from the local motion and its derivatives
-    /// (`motion[n]` holds the n-th time derivatives while the law does not act). `zero[n]` are
-    /// the sizes below which they count as zero.
-    fn initial_state(&self, motion: &[Local<f64>; 4], zero: &[f64; 4]) -> State;
+    /// The state at the start of a run, from the local motion while the law does not act.
+    fn initial_state(&self, motion: &LocalMotion) -> State;
 
-    /// The state that a fixed-step scheme sees at one sampled instant.
-    fn sampled_state(&self, position: &Local<f64>, velocity: &Local<f64>) -> State;
+    /// The state that a fixed-step scheme sees at one sampled instant, after the one that it saw
+    /// at the step before; before the first step that is [`State::FIRST`].
+    fn sampled_state(&self, previous: State, position: &Local<f64>, velocity: &Local<f64>)
+    -> State;
 
     /// Force on the structure in local coordinates, in N.
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T>;
@@ -110,19 +123,16 @@ pub trait Law: Clone + Send + Sync {
     /// One of a state's guards.
     fn guard(&self, state: State, index: usize) -> Guard;
 
-    /// The state that follows when a guard has reached zero.
-    fn next_state(&self, state: State, guard: usize) -> State;
+    /// The state that follows when a guard has reached zero. `motion` tells the local motion at
+    /// that instant, at some cost.
+    fn next_state(&self, state: State, guard: usize, motion: impl FnOnce() -> LocalMotion)
+    -> State;
 
     /// Energy stored, in J.
     fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T;
 
     /// Power dissipated, in W.
-    fn dissipated_power<T: Number>(
-        &self,
-        state: State,
-        position: &Local<T>,
-        velocity: &Local<T>,
-    ) -> T;
+    fn dissipation(&self, state: State) -> Power;
 
     /// Energy dissipated at the instant of a switch, in J.
     fn switch_loss(&self, before: State, after: State, position: &Local<f64>) -> f64;

@@ -5,7 +5,7 @@
 //! stop is then released, and takes hold again if `-k d - c d'` becomes positive before the gap
 //! has opened. The spring energy left at release is dissipated.
 
-use super::{Guard, Law, Local, Piece, State};
+use super::{Affine, Guard, Law, Local, LocalMotion, Piece, Power, State};
 use crate::error::{Error, Result, check_finite};
 use crate::number::Number;
 use crate::obstacle::Plane;
@@ -21,11 +21,11 @@ pub struct Stop {
 
 impl Stop {
     /// No contact.
-    pub const OPEN: State = State(0);
+    pub const OPEN: State = State::plain(0);
     /// The stop pushes.
-    pub const CLOSED: State = State(1);
+    pub const CLOSED: State = State::plain(1);
     /// Inside the obstacle, but the damper holds the spring back: no force.
-    pub const RELEASED: State = State(2);
+    pub const RELEASED: State = State::plain(2);
 
     /// A stop whose distance is `gap + row . q`, with stiffness in N/m and damping in N s/m.
     ///
@@ -68,20 +68,19 @@ impl Stop {
     }
 
     fn distance_guard(&self, name: &'static str, sign: f64) -> Guard {
+        let mut function = Affine::coordinate(0);
+        function.constant = self.obstacle.gap;
         Guard {
             name,
-            constant: sign * self.obstacle.gap,
-            position: [sign, 0.0, 0.0],
-            velocity: [0.0; 3],
+            function: function.times(sign),
         }
     }
 
     /// The push over the stiffness, so that every guard is a length.
     fn push_guard(&self, name: &'static str, sign: f64) -> Guard {
-        Guard {
-            velocity: [-sign * self.damping / self.stiffness, 0.0, 0.0],
-            ..self.distance_guard(name, -sign)
-        }
+        let mut guard = self.distance_guard(name, -sign);
+        guard.function.velocity[0] = -sign * self.damping / self.stiffness;
+        guard
     }
 }
 
@@ -97,18 +96,20 @@ impl Law for Stop {
     }
 
     fn state_name(&self, state: State) -> &'static str {
-        ["open", "closed", "released"][state.0 as usize]
+        ["open", "closed", "released"][state.number as usize]
     }
 
-    fn initial_state(&self, motion: &[Local<f64>; 4], zero: &[f64; 4]) -> State {
-        let distance = self.obstacle.distance(&motion[0]);
-        let derivatives = [distance, motion[1][0], motion[2][0], motion[3][0]];
+    fn initial_state(&self, motion: &LocalMotion) -> State {
+        let [position, velocity, acceleration, jerk] = &motion.derivatives;
+        let zero = &motion.zero;
+        let distance = self.obstacle.distance(position);
+        let derivatives = [distance, velocity[0], acceleration[0], jerk[0]];
         let decisive = (derivatives.iter().zip(zero)).find(|(value, zero)| value.abs() > **zero);
         match decisive {
             Some((value, _)) if *value < 0.0 => {}
             _ => return Self::OPEN,
         }
-        if distance < -zero[0] && self.push(&motion[0], &motion[1]) <= 0.0 {
+        if distance < -zero[0] && self.push(position, velocity) <= 0.0 {
             Self::RELEASED
         } else {
             Self::CLOSED
@@ -116,7 +117,12 @@ impl Law for Stop {
     }
 
     #[inline(always)]
-    fn sampled_state(&self, position: &Local<f64>, velocity: &Local<f64>) -> State {
+    fn sampled_state(
+        &self,
+        _previous: State,
+        position: &Local<f64>,
+        velocity: &Local<f64>,
+    ) -> State {
         if self.obstacle.distance(position) > 0.0 {
             Self::OPEN
         } else if self.push(position, velocity) >= 0.0 {
@@ -162,7 +168,12 @@ impl Law for Stop {
         }
     }
 
-    fn next_state(&self, state: State, guard: usize) -> State {
+    fn next_state(
+        &self,
+        state: State,
+        guard: usize,
+        _motion: impl FnOnce() -> LocalMotion,
+    ) -> State {
         match (state, guard) {
             (Self::OPEN, _) => Self::CLOSED,
             (Self::CLOSED, _) if self.damping == 0.0 => Self::OPEN,
@@ -182,18 +193,11 @@ impl Law for Stop {
         }
     }
 
-    #[inline(always)]
-    fn dissipated_power<T: Number>(
-        &self,
-        state: State,
-        _position: &Local<T>,
-        velocity: &Local<T>,
-    ) -> T {
+    fn dissipation(&self, state: State) -> Power {
         if state == Self::CLOSED {
-            let rate = self.obstacle.rate(velocity);
-            T::of(self.damping) * rate * rate
+            Power::of_damper(0, self.damping)
         } else {
-            T::of(0.0)
+            Power::NONE
         }
     }
 

@@ -9,12 +9,12 @@
 
 use super::Observer;
 use super::fixed_step::{
-    ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step,
-    check_uncoupled, coupling, highest_frequency, laws_damping, modal, pushed,
+    Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, check_uncoupled,
+    coupling, highest_frequency, laws_damping, modal, pushed,
 };
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, project};
+use crate::law::{COORDINATES, Law, Local, State, project};
 use crate::number::{Instructions, Lanes, Number, dispatch};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
@@ -96,8 +96,7 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
         let gain = &coefficients.gain;
         let own = modal::<I, B>(&coefficients.own);
         let past = modal::<I, B>(&coefficients.past);
-        let mut load = modal::<I, B>(&weighted(problem.forcing.forces(), gain));
-        let mut changing = ChangingLoads::new(&problem.forcing, dt, gain);
+        let load = modal::<I, B>(&weighted(problem.forcing.forces(), gain));
         let laws = A::make(problem.laws.len(), |i| &problem.laws[i]);
         let laws = laws.as_ref();
         let couplings = A::make(laws.len(), |i| {
@@ -110,6 +109,8 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
         let contacts = contacts.as_mut();
         let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
         let forces = forces.as_mut();
+        let mut seen = A::make(laws.len(), |_| State::FIRST);
+        let seen = seen.as_mut();
         let mut before = modal::<I, B>(&initial);
         let mut q = modal::<I, B>(&problem.displacement);
         record.begin(&initial, &problem.displacement);
@@ -118,18 +119,11 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
-                if let Some(changing) = &mut changing {
-                    let now = changing.next();
-                    for (load, now) in load.as_mut().iter_mut().zip(now) {
-                        *load = Lanes::of_block(now);
-                    }
-                    for (law, contact) in laws.iter().zip(contacts.iter_mut()) {
-                        contact.load = project(*law, now.as_flattened());
-                    }
-                }
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
-                    states[i] = law.sampled_state(&contact.now, &contact.rate);
-                    forces[i] = law.force(states[i], &contact.now, &contact.rate);
+                    let (position, velocity) = (&contact.now, &contact.rate);
+                    seen[i] = law.sampled_state(seen[i], position, velocity);
+                    forces[i] = law.force(seen[i], position, velocity);
+                    states[i] = seen[i];
                 }
                 let coupled = contacts.iter_mut().zip(couplings.as_ref());
                 for (law, (contact, couplings)) in laws.iter().zip(coupled) {
@@ -236,10 +230,14 @@ impl<I: Instructions, B: Count> Contact<I, B> {
 /// `q[-1] = q0 - dt v0 + dt^2/2 a0`, which starts the scheme at its own order.
 fn displacement_before<L: Law>(problem: &Problem<L>, dt: f64) -> Vec<f64> {
     let (q, v) = (&problem.displacement, &problem.velocity);
-    let [mut forces, _] = problem.forcing.at_start();
+    let mut forces = problem.forcing.forces().to_vec();
     for law in &problem.laws {
         let (position, rate) = (project(law, q), project(law, v));
-        let force = law.force(law.sampled_state(&position, &rate), &position, &rate);
+        let force = law.force(
+            law.sampled_state(State::FIRST, &position, &rate),
+            &position,
+            &rate,
+        );
         for (row, f) in law.rows().iter().zip(force) {
             for (total, r) in forces.iter_mut().zip(row) {
                 *total += r * f;

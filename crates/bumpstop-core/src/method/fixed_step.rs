@@ -3,7 +3,6 @@
 
 use super::observe;
 use crate::error::{Error, Result};
-use crate::forcing::Forcing;
 use crate::history::Event;
 use crate::law::{COORDINATES, Law, Local, State, project};
 use crate::number::{Block, Instructions, LANES, Lanes, Vectorised, blocks};
@@ -126,7 +125,7 @@ impl StepRecord {
         let rows = self.displacement.len();
         self.displacement
             .resize((last + 2) * self.stride, [0.0; LANES]);
-        self.states.resize(last * self.laws, State(0));
+        self.states.resize(last * self.laws, State::FIRST);
         (first < last).then(|| Stretch {
             start: first
                 .is_multiple_of(STEPS_BETWEEN_OBSERVATIONS)
@@ -134,6 +133,16 @@ impl StepRecord {
             rows: &mut self.displacement[rows..],
             states: &mut self.states[first * self.laws..],
         })
+    }
+
+    /// The laws' states at step n.
+    pub fn states(&self, n: usize) -> &[State] {
+        &self.states[n * self.laws..][..self.laws]
+    }
+
+    /// The laws' states at the last step before a time, or at it.
+    pub fn states_at(&self, time: f64) -> &[State] {
+        self.states(((time / self.dt) as usize).min(self.steps))
     }
 
     fn row(&self, n: usize) -> &[f64] {
@@ -179,14 +188,15 @@ impl StepRecord {
         let mut events = Vec::new();
         for (index, law) in problem.laws.iter().enumerate() {
             let position = project(law, &problem.displacement);
-            let mut before = law.sampled_state(&position, &project(law, &problem.velocity));
+            let velocity = project(law, &problem.velocity);
+            let mut before = law.sampled_state(State::FIRST, &position, &velocity);
             for (n, after) in self
                 .states
                 .chunks_exact(self.laws)
                 .map(|s| s[index])
                 .enumerate()
             {
-                if after != before {
+                if after.number != before.number {
                     events.push(Event {
                         time: n as f64 * self.dt,
                         law: index,
@@ -194,8 +204,8 @@ impl StepRecord {
                         before,
                         after,
                     });
-                    before = after;
                 }
+                before = after;
             }
         }
         events.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -301,39 +311,6 @@ pub(crate) fn modal<I: Instructions, B: Count>(numbers: &[f64]) -> Modal<I, B> {
     B::make(blocks.len(), |b| Lanes::of_block(&blocks[b]))
 }
 
-/// Loads that change in time, step by step.
-pub(crate) struct ChangingLoads<'a> {
-    forcing: &'a Forcing,
-    dt: f64,
-    gain: &'a [f64],
-    step: usize,
-    forces: Vec<Block>,
-}
-
-impl<'a> ChangingLoads<'a> {
-    /// The modal forces of a problem, each times its gain; `None` where they do not change.
-    pub(crate) fn new(forcing: &'a Forcing, dt: f64, gain: &'a [f64]) -> Option<Self> {
-        forcing.varies().then(|| Self {
-            forcing,
-            dt,
-            gain,
-            step: 0,
-            forces: blocks(gain),
-        })
-    }
-
-    /// Those of the next step, the first one at t = 0.
-    pub(crate) fn next(&mut self) -> &[Block] {
-        let forces = &mut self.forces.as_flattened_mut()[..self.gain.len()];
-        self.forcing.at(self.step as f64 * self.dt, forces);
-        for (force, gain) in forces.iter_mut().zip(self.gain) {
-            *force *= gain;
-        }
-        self.step += 1;
-        &self.forces
-    }
-}
-
 /// A march through time, compiled anew for the usual sizes of problems.
 pub(crate) trait March<L: Law> {
     /// The march for `B` blocks of modes and `A` laws.
@@ -394,6 +371,7 @@ pub(crate) fn pushed<L: Law>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::forcing::Forcing;
     use crate::history::{Derivative, History};
     use crate::law::Stop;
     use crate::method::{Method, simulate};

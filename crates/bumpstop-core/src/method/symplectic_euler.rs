@@ -7,12 +7,12 @@
 
 use super::Observer;
 use super::fixed_step::{
-    ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step,
-    check_uncoupled, coupling, highest_frequency, laws_damping, modal, pushed,
+    Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, check_uncoupled,
+    coupling, highest_frequency, laws_damping, modal, pushed,
 };
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, project};
+use crate::law::{COORDINATES, Law, Local, State, project};
 use crate::number::{Instructions, Lanes, Number, dispatch};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
@@ -73,10 +73,8 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
         let step = Lanes::<I>::of(dt);
         let omega2 = modal::<I, B>(problem.system.omega2());
         let damping = modal::<I, B>(problem.system.damping());
-        let mut load = modal::<I, B>(problem.forcing.forces());
+        let load = modal::<I, B>(problem.forcing.forces());
         let gain = vec![dt; problem.system.modes()];
-        let same = vec![1.0; problem.system.modes()];
-        let mut changing = ChangingLoads::new(&problem.forcing, dt, &same);
         let laws = A::make(problem.laws.len(), |i| &problem.laws[i]);
         let laws = laws.as_ref();
         let couplings = A::make(laws.len(), |i| {
@@ -86,6 +84,8 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
         let contacts = contacts.as_mut();
         let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
         let forces = forces.as_mut();
+        let mut seen = A::make(laws.len(), |_| State::FIRST);
+        let seen = seen.as_mut();
         let mut q = modal::<I, B>(&problem.displacement);
         let mut v = modal::<I, B>(&problem.velocity);
         let both = problem.displacement.iter().zip(&problem.velocity);
@@ -96,18 +96,11 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
-                if let Some(changing) = &mut changing {
-                    let now = changing.next();
-                    for (load, now) in load.as_mut().iter_mut().zip(now) {
-                        *load = Lanes::of_block(now);
-                    }
-                    for (law, contact) in laws.iter().zip(contacts.iter_mut()) {
-                        contact.load = project(*law, now.as_flattened()).map(|p| dt * p);
-                    }
-                }
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
-                    states[i] = law.sampled_state(&contact.position, &contact.velocity);
-                    forces[i] = law.force(states[i], &contact.position, &contact.velocity);
+                    let (position, velocity) = (&contact.position, &contact.velocity);
+                    seen[i] = law.sampled_state(seen[i], position, velocity);
+                    forces[i] = law.force(seen[i], position, velocity);
+                    states[i] = seen[i];
                 }
                 let coupled = contacts.iter_mut().zip(couplings.as_ref());
                 for (law, (contact, couplings)) in laws.iter().zip(coupled) {

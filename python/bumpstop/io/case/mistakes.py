@@ -82,7 +82,7 @@ def _translated(detail: ErrorDetails, model: type[Table]) -> InputError:
         hint = did_you_mean(place.path[-1], place.siblings)
         return InputError("unknown key", key=key, value=value, hint=hint)
     if kind in ("union_tag_not_found", "union_tag_invalid"):
-        return _wrong_tag(key, value, context)
+        return _wrong_tag(key, value, context, _kinds(place.annotation))
     if kind == "list_type":
         hint = f"begin each with [[{key}]]"
         return InputError("must be a list of tables", key=key, value=value, hint=hint)
@@ -97,9 +97,10 @@ def _of_field(error: object, key: str) -> InputError:
     return InputError(error.what, key=inner, value=error.value, hint=error.hint)
 
 
-def _wrong_tag(key: str, value: object, context: dict[str, Any]) -> InputError:
+def _wrong_tag(
+    key: str, value: object, context: dict[str, Any], known: Sequence[str]
+) -> InputError:
     tag = context["discriminator"].strip("'")
-    known = [word.strip("' ") for word in context.get("expected_tags", "").split(",") if word]
     if not isinstance(value, dict):
         return InputError("must be a table", key=key, value=value, hint=f"begin it with [{key}]")
     for wrong in value:
@@ -107,7 +108,7 @@ def _wrong_tag(key: str, value: object, context: dict[str, Any]) -> InputError:
         if tag not in value and hint.startswith("did you mean"):
             return InputError("unknown key", key=f"{key}.{wrong}", value=value[wrong], hint=hint)
     if tag not in value:
-        return InputError(_MISSING, key=f"{key}.{tag}", hint="what kind it is")
+        return InputError(_MISSING, key=f"{key}.{tag}", hint=f"known: {', '.join(known)}")
     hint = did_you_mean(value[tag], known)
     return InputError("is not a known kind", key=f"{key}.{tag}", value=value[tag], hint=hint)
 
@@ -118,6 +119,7 @@ class _Place(NamedTuple):
     path: KeyPath
     siblings: list[str]
     description: str | None
+    annotation: Any
 
 
 def _place(location: KeyPath, model: type[Table]) -> _Place:
@@ -142,7 +144,7 @@ def _place(location: KeyPath, model: type[Table]) -> _Place:
             annotation = key.annotation if key else None
         else:
             annotation = get_args(annotation)[-1] if get_args(annotation) else None
-    return _Place(tuple(path), siblings, description)
+    return _Place(tuple(path), siblings, description, annotation)
 
 
 def _bare(annotation: Any) -> Any:
@@ -158,6 +160,12 @@ def _bare(annotation: Any) -> Any:
 
 def _is_union(annotation: Any) -> bool:
     return get_origin(annotation) in (Union, UnionType)
+
+
+def _kinds(annotation: Any) -> list[str]:
+    """Return the words by which the tables of a tagged union say their kind."""
+    members = get_args(_bare(annotation))
+    return [word for member in members for word in kind_words(_bare(member))]
 
 
 def _member(union: Any, tag: str | int) -> Any:

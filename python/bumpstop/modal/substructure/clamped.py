@@ -6,18 +6,16 @@ from functools import cached_property
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector
-from bumpstop.structure.dofs import Dof
+from bumpstop.arguments import FloatArray
 from bumpstop.structure.echelon import null_space
-from bumpstop.structure.forms import LinearForm
-from bumpstop.structure.model import LinearModel
+from bumpstop.structure.model import VibratingModel
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
 __all__ = ["ClampedModel"]
 
 
 class ClampedModel:
-    """A model whose ``held`` independent dofs cannot move; a linear model itself.
+    """A model whose ``held`` independent dofs cannot move; what modes are computed from.
 
     Parameters
     ----------
@@ -27,7 +25,7 @@ class ClampedModel:
         Numbers of the dofs among its independent ones.
     """
 
-    def __init__(self, model: LinearModel, held: IndexArray) -> None:
+    def __init__(self, model: VibratingModel, held: IndexArray) -> None:
         self.model = model
         self.held = held
 
@@ -37,11 +35,6 @@ class ClampedModel:
         moving = np.ones(len(self.model.free), dtype=bool)
         moving[self.held] = False
         return np.flatnonzero(moving)
-
-    @property
-    def dofs(self) -> tuple[Dof, ...]:
-        """Node and dof of each row."""
-        return self.model.dofs
 
     @property
     def free(self) -> IndexArray:
@@ -71,21 +64,6 @@ class ClampedModel:
         """Mass matrix of the model."""
         return self.model.mass
 
-    @property
-    def damping(self) -> SparseMatrix:
-        """Damping matrix of the model."""
-        return self.model.damping
-
-    @property
-    def gyroscopic(self) -> SparseMatrix:
-        """Gyroscopic matrix of the model."""
-        return self.model.gyroscopic
-
-    @property
-    def circulatory(self) -> SparseMatrix:
-        """Circulatory matrix of the model."""
-        return self.model.circulatory
-
     def reduced(self, matrix: SparseMatrix) -> SparseMatrix:
         """Return expansion' @ matrix @ expansion."""
         return self.model.reduced(matrix).restricted(self.moving)
@@ -94,21 +72,3 @@ class ClampedModel:
         """Return the motions that strain nothing and leave the held dofs where they are."""
         rigid = self.model.rigid_shapes()
         return (rigid @ null_space(rigid[self.held]))[self.moving]
-
-    def displacement_form(self, node: str, dof: str) -> LinearForm:
-        """Return one dof of a node as a form of all dofs."""
-        return self.model.displacement_form(node, dof)
-
-    def position(self, node: str) -> Vector:
-        """Return where a node is at rest, in m."""
-        return self.model.position(node)
-
-    def rigid_field(
-        self,
-        *,
-        translation: Vector = (0.0, 0.0, 0.0),
-        rotation: Vector = (0.0, 0.0, 0.0),
-        about: Vector = (0.0, 0.0, 0.0),
-    ) -> FloatArray:
-        """Return a small rigid motion of all dofs, those that are held too."""
-        return self.model.rigid_field(translation=translation, rotation=rotation, about=about)

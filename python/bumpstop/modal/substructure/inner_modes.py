@@ -8,12 +8,12 @@ from bumpstop.arguments import FloatArray
 from bumpstop.errors import InputError
 from bumpstop.modal.eigen import model_modes
 from bumpstop.modal.selection import LowestModes
-from bumpstop.structure.model import LinearModel
+from bumpstop.structure.model import VibratingModel
 
 __all__ = ["flexible_modes"]
 
 
-def flexible_modes(model: LinearModel, modes: object, rigid: int) -> FloatArray:
+def flexible_modes(model: VibratingModel, modes: object, rigid: int) -> FloatArray:
     """Return the shapes of the lowest modes of a model that strain it, (dofs, count).
 
     Parameters
@@ -33,7 +33,7 @@ def flexible_modes(model: LinearModel, modes: object, rigid: int) -> FloatArray:
     most = len(model.free) - rigid
     count = _count(modes, most)
     if count == 0:
-        return np.zeros((len(model.dofs), 0))
+        return np.zeros((model.expansion.shape[0], 0))
     modes_with_rigid = model_modes(model, LowestModes(rigid + count))
     # Not the first ones: a model that buckles has modes below its rigid ones.
     return modes_with_rigid.shapes[:, modes_with_rigid.omega2 != 0.0]

@@ -1,12 +1,13 @@
 //! Switching: which guards are watched in a phase, from where they start, and what follows when
 //! one reaches zero.
 
-use super::advance::Start;
+use super::advance::{Crossing, Start};
 use super::phase::{Phase, Phases};
-use super::signal::Signal;
+use super::rows::ComplexBlock;
+use super::signal::{Instant, Signal};
 use crate::history::Event;
-use crate::law::{COORDINATES, Guard, Law, Local, State};
-use crate::number::Instructions;
+use crate::law::{Affine, Guard, Law, LocalMotion, State};
+use crate::number::{Instructions, Plain};
 use crate::problem::Problem;
 use crate::system::Coupling;
 
@@ -45,8 +46,10 @@ impl Watch {
                     self.signals.push(Signal::default());
                 }
                 let signal = &mut self.signals[at];
-                signal.set::<I>(phases, phase, &views[first_view..], &guard, remaining);
-                let same = fired.is_some_and(|(law, f)| law == index && shares_zero(&f, &guard));
+                let function = &guard.function;
+                signal.set::<I>(phases, phase, &views[first_view..], function, remaining);
+                let same = fired
+                    .is_some_and(|(law, f)| law == index && f.function.is_multiple_of(function));
                 let zero = same || {
                     let [value, ..] = signal.values_at_start(phases, phase);
                     value.abs() <= signal.rounding(0.0) || value < 0.0
@@ -64,57 +67,77 @@ impl Watch {
     }
 }
 
-/// Whether two guards are the same function up to a factor.
-fn shares_zero(a: &Guard, b: &Guard) -> bool {
-    let flat = |g: &Guard| {
-        let mut all = [0.0; 1 + 2 * COORDINATES];
-        all[0] = g.constant;
-        all[1..=COORDINATES].copy_from_slice(&g.position);
-        all[1 + COORDINATES..].copy_from_slice(&g.velocity);
-        all
-    };
-    let (a, b) = (flat(a), flat(b));
-    let Some(pivot) = (0..a.len()).rev().find(|&i| a[i] != 0.0) else {
-        return false;
-    };
-    b[pivot] != 0.0 && (0..a.len()).all(|i| a[i] * b[pivot] == b[i] * a[pivot])
-}
-
-/// The event that a crossing of watched guard `watched` at `time` makes, and the guard itself.
+/// The event that the crossing of a watched guard makes at the end of a phase, and that guard.
 pub(crate) fn event_of<L: Law>(
     problem: &Problem<L>,
-    states: &[State],
+    phases: &Phases,
+    phase: Phase,
     watch: &Watch,
-    watched: usize,
-    time: f64,
+    crossing: Crossing,
 ) -> (Event, Guard) {
-    let (law, number) = watch.guards[watched];
-    let guard = problem.laws[law].guard(states[law], number);
+    let (number, index) = watch.guards[crossing.watched];
+    let (law, before) = (&problem.laws[number], phases.states(phase)[number]);
+    let guard = law.guard(before, index);
+    let motion = || local_motion(problem, phases, phase, number, crossing.time);
     let event = Event {
-        time,
-        law,
+        time: phase.start + crossing.time,
+        law: number,
         guard: guard.name,
-        before: states[law],
-        after: problem.laws[law].next_state(states[law], number),
+        before,
+        after: law.next_state(before, index, motion),
     };
     (event, guard)
+}
+
+/// The local motion that a law sees `t` after the start of a phase. Only laws with memory ask
+/// for it, so that plain arithmetic, which gives the same bits, does.
+#[cold]
+fn local_motion<L: Law>(
+    problem: &Problem<L>,
+    phases: &Phases,
+    phase: Phase,
+    law: usize,
+    t: f64,
+) -> LocalMotion {
+    let spectrum = &phases.spectra[phase.spectrum];
+    let before: usize = problem.laws[..law].iter().map(|l| l.rows().len()).sum();
+    let mut exponentials = vec![ComplexBlock::ZERO; spectrum.lambda.len()];
+    spectrum.exponentials::<Plain>(t, &mut exponentials);
+    let at = Instant {
+        time: t,
+        exponentials: &exponentials,
+    };
+    let mut motion = LocalMotion::default();
+    for coordinate in 0..problem.laws[law].rows().len() {
+        let mut signal = Signal::default();
+        let views = &spectrum.views[before..];
+        let function = Affine::coordinate(coordinate);
+        let remaining = problem.duration - phase.start;
+        signal.set::<Plain>(phases, phase, views, &function, remaining);
+        let rate = signal.derivative(phases, phase);
+        let [x, ..] = signal.values::<Plain>(phases, phase, &at);
+        let [v, a, jerk] = rate.values::<Plain>(phases, phase, &at);
+        let [_, jerk_rounding] = rate.rate_rounding(phases, phase);
+        let [v_rounding, a_rounding] = signal.rate_rounding(phases, phase);
+        let rounding = [signal.rounding(t), v_rounding, a_rounding, jerk_rounding];
+        motion.add(coordinate, [x, v, a, jerk], rounding);
+    }
+    motion
 }
 
 /// The laws' states at t = 0, from the motion that the structure would have without them.
 pub(crate) fn initial_states<L: Law>(problem: &Problem<L>) -> Vec<State> {
     let mut states = Vec::with_capacity(problem.laws.len());
     for law in &problem.laws {
-        let (motion, sizes) = free_derivatives(problem, law);
-        states.push(law.initial_state(&motion, &sizes));
+        states.push(law.initial_state(&free_motion(problem, law)));
     }
     states
 }
 
-/// Local coordinates and their first three derivatives at t = 0 without the laws, and the sizes
-/// below which each counts as zero.
-fn free_derivatives<L: Law>(problem: &Problem<L>, law: &L) -> ([Local<f64>; 4], [f64; 4]) {
+/// The local motion at t = 0 without the laws.
+fn free_motion<L: Law>(problem: &Problem<L>, law: &L) -> LocalMotion {
     let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
-    let [forces, force_rates] = problem.forcing.at_start();
+    let forces = problem.forcing.forces();
     let coupled = |mode: usize, position: &[f64], velocity: &[f64]| {
         let part = |matrix: Option<&Coupling>, motion: &[f64]| {
             matrix.map_or(0.0, |matrix| matrix.product(mode, motion))
@@ -133,23 +156,17 @@ fn free_derivatives<L: Law>(problem: &Problem<L>, law: &L) -> ([Local<f64>; 4], 
     } else {
         Vec::new()
     };
-    let mut motion = [[0.0; COORDINATES]; 4];
-    let mut sizes = [0.0; 4];
+    let mut motion = LocalMotion::default();
     for (coordinate, row) in law.rows().iter().enumerate() {
         for i in 0..omega2.len() {
             let (q, v) = (problem.displacement[i], problem.velocity[i]);
             let a = acceleration(i);
-            let jerk = force_rates[i]
-                - damping[i] * a
-                - omega2[i] * v
-                - coupled(i, &problem.velocity, &accelerations);
-            let derivatives = [q, v, a, jerk];
-            for (order, derivative) in derivatives.iter().enumerate() {
-                let term = row[i] * derivative;
-                motion[order][coordinate] += term;
-                sizes[order] += 8.0 * f64::EPSILON * term.abs();
-            }
+            let jerk =
+                -damping[i] * a - omega2[i] * v - coupled(i, &problem.velocity, &accelerations);
+            let terms = [q, v, a, jerk].map(|derivative| row[i] * derivative);
+            let zero = terms.map(|term| 8.0 * f64::EPSILON * term.abs());
+            motion.add(coordinate, terms, zero);
         }
     }
-    (motion, sizes)
+    motion
 }

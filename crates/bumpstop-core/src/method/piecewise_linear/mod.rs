@@ -12,15 +12,11 @@ mod dense;
 mod dissipation;
 mod event;
 mod grouping;
-mod impedance;
 mod jet;
 mod phase;
-mod polynomial;
 mod product;
 mod quadrature;
 mod record;
-mod resonance;
-mod response;
 mod rows;
 mod secular;
 mod signal;
@@ -89,8 +85,6 @@ struct Scratch {
     watch: Watch,
     work: Workspace,
     bench: Workbench,
-    /// Where in its table each load stands.
-    places: Vec<usize>,
 }
 
 thread_local! {
@@ -132,7 +126,6 @@ impl<'a, L: Law> Run<'a, L> {
             if (self.phases.list.len()).is_multiple_of(PHASES_BETWEEN_OBSERVATIONS) {
                 observe(observer, time)?;
             }
-            let knot = self.meet_loads(time);
             self.begin::<I>(time, &states, &q, &v)?;
             let phase = self.phases.list[self.phases.list.len() - 1];
             self.scratch
@@ -144,18 +137,11 @@ impl<'a, L: Law> Run<'a, L> {
                 signals: self.scratch.watch.active(),
                 starts: &self.scratch.watch.starts,
                 from: 0.0,
-                limit: problem.duration.min(knot) - time,
+                limit: problem.duration - time,
             };
             let crossing = (self.scratch.walk).first_zero::<I>(path, &mut self.certificate);
             let Some(crossing) = crossing else {
-                if knot >= problem.duration {
-                    return Ok(());
-                }
-                let length = knot - time;
-                self.phases
-                    .motion::<I>(phase, length, &mut self.scratch.work, &mut q, &mut v);
-                (time, fired, at_once) = (knot, None, 0);
-                continue;
+                return Ok(());
             };
             at_once = if time + crossing.time > time {
                 0
@@ -168,30 +154,12 @@ impl<'a, L: Law> Run<'a, L> {
             self.phases
                 .motion::<I>(phase, crossing.time, &mut self.scratch.work, &mut q, &mut v);
             time += crossing.time;
-            let (event, guard) = event::event_of(
-                problem,
-                &states,
-                &self.scratch.watch,
-                crossing.watched,
-                time,
-            );
+            let watch = &self.scratch.watch;
+            let (event, guard) = event::event_of(problem, &self.phases, phase, watch, crossing);
             states[event.law] = event.after;
             fired = Some((event.law, guard));
             self.events.push(event);
         }
-    }
-
-    /// Turns to the loads from a time on; returns the next instant at which one of them has a
-    /// knot.
-    #[inline(always)]
-    fn meet_loads(&mut self, time: f64) -> f64 {
-        let forcing = &self.problem.forcing;
-        if !forcing.varies() {
-            return f64::INFINITY;
-        }
-        let Scratch { places, work, .. } = &mut *self.scratch;
-        forcing.onset(time, places, &mut work.onset);
-        forcing.next_knot(places)
     }
 
     /// Starts a phase; a spectrum of the secular equation that fails the phase's check is
@@ -205,14 +173,14 @@ impl<'a, L: Law> Run<'a, L> {
         v: &[f64],
     ) -> Result<()> {
         let spectrum = self.spectrum::<I>(states)?;
-        let begun = self
-            .phases
-            .begin::<I>(time, spectrum, q, v, &mut self.scratch.work);
+        let work = &mut self.scratch.work;
+        let begun = self.phases.begin::<I>(time, spectrum, states, q, v, work);
         match begun {
             Err(Error::Defective { .. }) if self.phases.spectra[spectrum].is_secular => {
                 let replacement = self.dense_spectrum(states)?;
+                let work = &mut self.scratch.work;
                 self.phases
-                    .begin::<I>(time, replacement, q, v, &mut self.scratch.work)
+                    .begin::<I>(time, replacement, states, q, v, work)
             }
             begun => begun,
         }
@@ -228,7 +196,8 @@ impl<'a, L: Law> Run<'a, L> {
         Ok(self.phases.add_spectrum(dense))
     }
 
-    /// The number of the spectrum for the given states, the latest one made.
+    /// The number of the spectrum for the given states, the latest one made: one with their
+    /// numbers has their matrices, one with their memory their constant forces too.
     #[inline(always)]
     fn spectrum<I: Instructions>(&mut self, states: &[State]) -> Result<usize> {
         let known = self.phases.spectra.iter().rposition(|s| s.states == states);

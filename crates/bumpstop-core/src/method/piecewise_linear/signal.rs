@@ -2,15 +2,12 @@
 
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
-use super::polynomial::{Polynomial, of_derivative};
 use super::product::{Factor, grown};
-use super::resonance::Resonant;
-use super::response::Response;
 use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
 use super::spectrum::Spectrum;
 use super::tables::CELLS_BETWEEN_ANCHORS;
 use super::view::View;
-use crate::law::Guard;
+use crate::law::{Affine, COORDINATES};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
 /// Exponents with `|lambda| r` below this are followed by their Taylor polynomial over a cell of
@@ -35,8 +32,6 @@ struct Special {
     single: usize,
     of_position: f64,
     of_velocity: f64,
-    /// Factor of the load that a slow motion is kept with.
-    of_load: f64,
     third: f64,
 }
 
@@ -56,13 +51,12 @@ impl Terms {
     };
 }
 
-/// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials + resonances`.
+/// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Signal {
     terms: Vec<Terms>,
-    polynomial: Polynomial,
+    polynomial: [f64; 3],
     specials: Vec<Special>,
-    resonances: Vec<Resonant>,
     remaining: f64,
     /// `sum |b| |lambda|^n`
     totals: [f64; 3],
@@ -77,21 +71,19 @@ pub(crate) struct Instant<'a> {
 }
 
 impl Signal {
-    /// The constant factor free signal `sum position . x + velocity . x'` of one law's local
-    /// coordinates, seen through `views`.
+    /// An affine function of one law's local coordinates, seen through `views`.
     #[inline(always)]
     pub(crate) fn set<I: Instructions>(
         &mut self,
         phases: &Phases,
         phase: Phase,
         views: &[View],
-        guard: &Guard,
+        function: &Affine,
         remaining: f64,
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
-        self.polynomial = Polynomial::constant(guard.constant);
+        self.polynomial = [function.constant, 0.0, 0.0];
         self.specials.clear();
-        self.resonances.clear();
         self.remaining = remaining;
         let amplitudes = phases.amplitudes(phase);
         self.terms.resize(amplitudes.len(), Terms::ZERO);
@@ -100,7 +92,7 @@ impl Signal {
         for (b, terms) in self.terms.iter_mut().enumerate() {
             let lambda = spectrum.lambda[b].lanes::<I>();
             let modulus = spectrum.moduli[b].lanes::<I>();
-            let value = weights(views, guard, lambda, b) * amplitudes[b].lanes();
+            let value = weights(views, function, lambda, b) * amplitudes[b].lanes();
             let slope = value * lambda;
             let curvature = slope * lambda;
             for (n, of) in [value, slope, curvature].into_iter().enumerate() {
@@ -118,76 +110,11 @@ impl Signal {
         let sums = Lanes::totals([a, b, c, d, e, f, zero, zero]);
         self.totals = [sums[0], sums[1], sums[2]];
         self.at_start = [sums[3], sums[4], sums[5]];
-        for (coordinate, (position, velocity)) in
-            guard.position.iter().zip(guard.velocity).enumerate()
-        {
-            if *position != 0.0 || velocity != 0.0 {
-                let view = &views[coordinate];
-                self.polynomial.add(0, position * view.rest);
-                self.add_singles(phases, phase, view, *position, velocity);
-                if let Some(response) = &spectrum.response {
-                    self.add_loads(response, phases, phase, view, [*position, velocity]);
-                }
+        for (coordinate, view) in views.iter().enumerate().take(COORDINATES) {
+            if function.sees(coordinate) {
+                self.polynomial[0] += function.position[coordinate] * view.rest;
+                self.add_singles(phases, phase, view, function, coordinate);
             }
-        }
-    }
-
-    /// What follows loads that change in time, beside its exponents: a sum of position and
-    /// velocity with the given factors.
-    fn add_loads(
-        &mut self,
-        response: &Response,
-        phases: &Phases,
-        phase: Phase,
-        view: &View,
-        factors: [f64; 2],
-    ) {
-        let coefficients = phases.coefficients(phase);
-        for (link, weight) in response.links.iter().zip(&view.links) {
-            let channel = &coefficients[link.channel * response.stride..][..response.stride];
-            for (order, factor) in (link.order..).zip(factors) {
-                let weight = weight * factor;
-                for power in 0..(response.stride as i32 - order).max(0) as usize {
-                    let term = weight * of_derivative(channel, order, power);
-                    self.polynomial.add(power, term);
-                }
-            }
-        }
-        for (resonance, weight) in response.resonances.iter().zip(&view.resonances) {
-            let unit = phases.unit(phase, response, resonance.harmonic);
-            let resonant = response.resonant(resonance, unit, *weight);
-            let mut rate = resonant;
-            rate.weight = resonant.weight.scale(factors[1]);
-            self.add_rate(rate);
-            let mut value = resonant;
-            value.weight = resonant.weight.scale(factors[0]);
-            self.add_resonant(value);
-        }
-    }
-
-    fn add_resonant(&mut self, resonant: Resonant) {
-        if resonant.weight.norm2() > 0.0 {
-            self.resonances.push(resonant);
-        }
-    }
-
-    /// Adds the rate of a resonance: its own exponent times it, plus the load's exponential.
-    fn add_rate(&mut self, of: Resonant) {
-        let mut own = of;
-        own.weight = of.weight * of.lambda;
-        self.add_resonant(own);
-        let (block, lane) = (of.at / LANES, of.at % LANES);
-        let mut term = of.weight;
-        let mut size = term.norm();
-        let terms = &mut self.terms[block];
-        terms.size.0[lane] += size;
-        for order in 0..3 {
-            let sum = entry(&terms.of[order..=order], lane) + term;
-            set_entry(&mut terms.of[order..=order], lane, sum);
-            self.at_start[order] += term.re;
-            self.totals[order] += size;
-            term = term * Complex::new(0.0, of.omega);
-            size *= of.omega;
         }
     }
 
@@ -197,33 +124,40 @@ impl Signal {
         phases: &Phases,
         phase: Phase,
         view: &View,
-        of_position: f64,
-        of_velocity: f64,
+        function: &Affine,
+        coordinate: usize,
     ) {
+        let of_position = function.position[coordinate];
+        let of_velocity = function.velocity[coordinate];
+        let of_acceleration = function.acceleration[coordinate];
         let spectrum = &phases.spectra[phase.spectrum];
         for (single, weight) in view.singles.iter().enumerate() {
             if *weight == 0.0 {
                 continue;
             }
             let motion = &spectrum.singles[single].motion;
-            let kept = phases.kept(phase, single);
-            let (position, velocity) = (weight * of_position, weight * of_velocity);
+            let (x0, v0) = phases.kept(phase, single);
+            let (mut position, mut velocity) = (weight * of_position, weight * of_velocity);
+            let acceleration = weight * of_acceleration;
             if motion.is_special() {
-                let third = position.abs() * motion.special_bound(3, kept, self.remaining)
-                    + velocity.abs() * motion.special_bound(4, kept, self.remaining);
+                // x'' = force - c x' - w2 x
+                self.polynomial[0] += acceleration * motion.force;
+                position -= acceleration * motion.omega2;
+                velocity -= acceleration * motion.damping;
+                let third = position.abs() * motion.special_bound(3, x0, v0, self.remaining)
+                    + velocity.abs() * motion.special_bound(4, x0, v0, self.remaining);
                 self.specials.push(Special {
                     single,
                     of_position: position,
                     of_velocity: velocity,
-                    of_load: 0.0,
                     third,
                 });
-                self.totals[0] += position.abs() * kept.x.abs() + velocity.abs() * kept.v.abs();
+                self.totals[0] += position.abs() * x0.abs() + velocity.abs() * v0.abs();
             } else {
-                let p = motion.polynomial(kept.x, kept.v);
-                self.polynomial.add(0, position * p[0] + velocity * p[1]);
-                (self.polynomial).add(1, position * p[1] + 2.0 * velocity * p[2]);
-                self.polynomial.add(2, position * p[2]);
+                let p = motion.polynomial(x0, v0);
+                self.polynomial[0] += position * p[0] + velocity * p[1] + 2.0 * acceleration * p[2];
+                self.polynomial[1] += position * p[1] + 2.0 * velocity * p[2];
+                self.polynomial[2] += position * p[2];
             }
         }
     }
@@ -231,23 +165,10 @@ impl Signal {
     /// Bound of the rounding of a value at time t.
     #[inline(always)]
     pub(crate) fn rounding(&self, t: f64) -> f64 {
-        let polynomial = self.polynomial.size(t);
+        let p = self.polynomial;
+        let polynomial = p[0].abs() + t * (p[1].abs() + t * p[2].abs());
         let blocks = 0.5 * f64::EPSILON * self.terms.len() as f64;
-        let exponentials =
-            (ROUNDING + blocks) * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t;
-        if self.resonances.is_empty() {
-            return exponentials;
-        }
-        exponentials + self.rounding_of_resonances(t)
-    }
-
-    /// A resonance is the product of two exponentials, with the same error of the exponents.
-    fn rounding_of_resonances(&self, t: f64) -> f64 {
-        let each = self.resonances.iter().map(|resonant| {
-            let [size, rate] = resonant.sizes(t);
-            ROUNDING * size + f64::EPSILON * rate * t
-        });
-        each.sum()
+        (ROUNDING + blocks) * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t
     }
 
     /// The signal's rate.
@@ -274,26 +195,21 @@ impl Signal {
                 }
             }
         }
-        rate.polynomial = self.polynomial.derivative();
+        let p = self.polynomial;
+        rate.polynomial = [p[1], 2.0 * p[2], 0.0];
         for special in &mut rate.specials {
             let single = special.single;
             let motion = &spectrum.singles[single].motion;
-            let kept = phases.kept(phase, single);
-            // x'' = force + load - c x' - w2 x
+            let (x0, v0) = phases.kept(phase, single);
+            // x'' = force - c x' - w2 x
             let velocity = special.of_velocity;
-            rate.polynomial.add(0, velocity * motion.force);
-            special.of_load = velocity;
+            rate.polynomial[0] += velocity * motion.force;
             special.of_velocity = special.of_position - motion.damping * velocity;
             special.of_position = -motion.omega2 * velocity;
-            let bound = |order| motion.special_bound(order, kept, self.remaining);
+            let bound = |order| motion.special_bound(order, x0, v0, self.remaining);
             special.third =
                 special.of_position.abs() * bound(3) + special.of_velocity.abs() * bound(4);
-            special.third += velocity.abs() * kept.load_bound(3, self.remaining);
-            rate.totals[0] += special.of_velocity.abs() * kept.v.abs();
-        }
-        rate.resonances.clear();
-        for resonant in &self.resonances {
-            rate.add_rate(*resonant);
+            rate.totals[0] += special.of_velocity.abs() * v0.abs();
         }
         rate
     }
@@ -307,22 +223,19 @@ impl Signal {
                 }
             }
         }
-        self.polynomial.negate();
+        self.polynomial = self.polynomial.map(|x| -x);
         self.at_start = self.at_start.map(|x| -x);
         for special in &mut self.specials {
             special.of_position = -special.of_position;
             special.of_velocity = -special.of_velocity;
-            special.of_load = -special.of_load;
-        }
-        for resonant in &mut self.resonances {
-            resonant.weight = -resonant.weight;
         }
     }
 
     /// Integral from the start of the phase to t after it.
     pub(crate) fn integral(&self, phases: &Phases, phase: Phase, t: f64) -> f64 {
         let spectrum = &phases.spectra[phase.spectrum];
-        let mut total = self.polynomial.integral(t);
+        let p = self.polynomial;
+        let mut total = t * (p[0] + t * (p[1] / 2.0 + t * p[2] / 3.0));
         for (terms, lambda) in self.terms.iter().zip(&spectrum.lambda) {
             for lane in 0..LANES {
                 if terms.size.0[lane] > 0.0 {
@@ -334,20 +247,18 @@ impl Signal {
         }
         for special in &self.specials {
             let motion = &spectrum.singles[special.single].motion;
-            let kept = phases.kept(phase, special.single);
-            let [x, ..] = motion.special(kept, t);
-            total += special.of_position * motion.special_integral(kept, t);
-            total += special.of_velocity * (x - kept.x);
-            total += special.of_load * kept.load(-1, t);
+            let (x0, v0) = phases.kept(phase, special.single);
+            let [x, ..] = motion.special(x0, v0, t);
+            total += special.of_position * motion.special_integral(x0, v0, t);
+            total += special.of_velocity * (x - x0);
         }
-        let resonances = self.resonances.iter();
-        total + resonances.map(|resonant| resonant.integral(t)).sum::<f64>()
+        total
     }
 
     /// The signal as a factor of a product.
     pub(crate) fn factor<'a>(&'a self, phases: &'a Phases, phase: Phase) -> Factor<'a> {
         let spectrum = &phases.spectra[phase.spectrum];
-        let mut factor = Factor::of_polynomial(self.polynomial.terms());
+        let mut factor = Factor::of_polynomial(&self.polynomial);
         for (terms, lambda) in self.terms.iter().zip(&spectrum.lambda) {
             for lane in 0..LANES {
                 if terms.size.0[lane] > 0.0 {
@@ -356,19 +267,27 @@ impl Signal {
                 }
             }
         }
-        if self.specials.is_empty() && self.resonances.is_empty() {
+        if self.specials.is_empty() {
             return factor;
         }
         let paces = self.specials.iter().map(|special| {
             let motion = &spectrum.singles[special.single].motion;
             motion.omega2.abs().sqrt().max(motion.damping)
         });
-        let paces = paces.chain(self.resonances.iter().map(|r| r.lambda.norm().max(r.omega)));
         factor.with_other(paces.fold(0.0, f64::max), move |t| {
-            let mut values = [0.0; 3];
-            self.add_specials(phases, phase, t, &mut values);
-            values[0]
+            self.special_value(phases, phase, t)
         })
+    }
+
+    /// The special parts together.
+    fn special_value(&self, phases: &Phases, phase: Phase, t: f64) -> f64 {
+        let singles = &phases.spectra[phase.spectrum].singles;
+        let value = |special: &Special| {
+            let (x0, v0) = phases.kept(phase, special.single);
+            let [x, v, _] = singles[special.single].motion.special(x0, v0, t);
+            special.of_position * x + special.of_velocity * v
+        };
+        self.specials.iter().map(value).sum()
     }
 
     /// Makes the signal positive just after the start of the phase; tells whether it is so at
@@ -389,18 +308,15 @@ impl Signal {
         let mut bounds = [self.totals[1], self.totals[2]];
         for special in &self.specials {
             let motion = &phases.spectra[phase.spectrum].singles[special.single].motion;
-            let kept = phases.kept(phase, special.single);
-            let [_, v, a, jerk] = motion.special(kept, 0.0).map(f64::abs);
-            let (position, velocity) = (special.of_position.abs(), special.of_velocity.abs());
-            bounds[0] += position * v + velocity * a;
-            bounds[1] += position * a + velocity * jerk.max(motion.damping * a);
+            let (x0, v0) = phases.kept(phase, special.single);
+            let [x, v, a] = motion.special(x0, v0, 0.0);
+            let sizes = [x.abs(), v.abs(), a.abs(), motion.damping * a.abs()];
+            bounds[0] +=
+                special.of_position.abs() * sizes[1] + special.of_velocity.abs() * sizes[2];
+            bounds[1] +=
+                special.of_position.abs() * sizes[2] + special.of_velocity.abs() * sizes[3];
         }
-        for resonant in &self.resonances {
-            let size = resonant.weight.norm();
-            bounds[0] += size;
-            bounds[1] += size * (resonant.lambda.norm() + resonant.omega);
-        }
-        let p = self.polynomial.coefficients;
+        let p = self.polynomial;
         [
             ROUNDING * (bounds[0] + p[1].abs()),
             ROUNDING * (bounds[1] + 2.0 * p[2].abs()),
@@ -414,9 +330,6 @@ impl Signal {
         let mut pace = if size > 0.0 { bending / size } else { 0.0 };
         for special in &self.specials {
             pace = pace.max(spectrum.singles[special.single].motion.omega2.abs());
-        }
-        for resonant in &self.resonances {
-            pace = pace.max(resonant.omega * resonant.omega);
         }
         pace.sqrt()
     }
@@ -483,41 +396,19 @@ impl Signal {
     /// Polynomial and special parts.
     #[inline(always)]
     fn add_slow(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
-        self.polynomial.add_to(t, values);
-        self.add_specials(phases, phase, t, values);
-    }
-
-    /// Special parts and resonances.
-    #[inline(always)]
-    fn add_specials(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
+        let p = self.polynomial;
+        values[0] += p[0] + t * (p[1] + t * p[2]);
+        values[1] += p[1] + 2.0 * t * p[2];
+        values[2] += 2.0 * p[2];
         for special in &self.specials {
             let motion = &phases.spectra[phase.spectrum].singles[special.single].motion;
-            let kept = phases.kept(phase, special.single);
-            let [x, v, a, jerk] = motion.special(kept, t);
+            let (x0, v0) = phases.kept(phase, special.single);
+            let [x, v, a] = motion.special(x0, v0, t);
+            let jerk = -motion.damping * a - motion.omega2 * v;
             for (value, (x, v)) in values.iter_mut().zip([(x, v), (v, a), (a, jerk)]) {
                 *value += special.of_position * x + special.of_velocity * v;
             }
-            if special.of_load != 0.0 {
-                for (value, order) in values.iter_mut().zip(0..) {
-                    *value += special.of_load * kept.load(order, t);
-                }
-            }
         }
-        for resonant in &self.resonances {
-            for (value, part) in values.iter_mut().zip(resonant.values(t)) {
-                *value += part;
-            }
-        }
-    }
-
-    /// Bound of the third derivative of polynomial and resonances up to t.
-    #[inline(always)]
-    fn third_of_loads(&self, t: f64) -> f64 {
-        let mut third = self.polynomial.third(t);
-        for resonant in &self.resonances {
-            third += resonant.third(t);
-        }
-        third
     }
 
     /// The jet at `at`, valid over `reach` to both sides (or to the right alone). `sizes` bounds
@@ -568,29 +459,32 @@ impl Signal {
             value: values[0],
             slope: values[1],
             curvature: values[2],
-            third: totals[3] + specials + self.third_of_loads(at.time + reach),
+            third: totals[3] + specials,
             rest: [totals[4], totals[5], totals[6]],
             rounding: self.rounding(at.time + reach),
         }
     }
 }
 
-/// `position . view + velocity . view lambda` for eight exponents.
+/// `position . view + velocity . view lambda + acceleration . view lambda^2` for eight exponents.
 #[inline(always)]
 fn weights<I: Instructions>(
     views: &[View],
-    guard: &Guard,
+    function: &Affine,
     lambda: Complex<Lanes<I>>,
     block: usize,
 ) -> Complex<Lanes<I>> {
     let mut total = Complex::zero();
-    let factors = guard.position.iter().zip(guard.velocity);
-    for ((position, velocity), view) in factors.zip(views) {
-        if *position != 0.0 || velocity != 0.0 {
+    for (coordinate, view) in views.iter().enumerate().take(COORDINATES) {
+        if function.sees(coordinate) {
             let view = view.exponents[block].lanes();
-            let factor = lambda
-                .scale(Lanes::<I>::of(velocity))
-                .plus(Lanes::<I>::of(*position));
+            let mut factor = lambda
+                .scale(Lanes::<I>::of(function.velocity[coordinate]))
+                .plus(Lanes::<I>::of(function.position[coordinate]));
+            let acceleration = function.acceleration[coordinate];
+            if acceleration != 0.0 {
+                factor += (lambda * lambda).scale(Lanes::<I>::of(acceleration));
+            }
             total += view * factor;
         }
     }

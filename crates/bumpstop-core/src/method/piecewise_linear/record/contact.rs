@@ -2,7 +2,7 @@
 
 use super::PhaseRecord;
 use crate::impacts::Impact;
-use crate::law::{COORDINATES, Guard, Law, project};
+use crate::law::{Affine, Law, project};
 use crate::method::piecewise_linear::advance::{Certificate, Path, Start, Walk};
 use crate::method::piecewise_linear::phase::{Phase, Workspace};
 use crate::method::piecewise_linear::signal::Signal;
@@ -80,29 +80,23 @@ impl<'a, L: Law> ContactReader<'a, L> {
         let Some(piece) = law.piece(state).filter(|p| p.acts()) else {
             return;
         };
-        let mut force = Guard {
-            name: "force",
-            constant: piece.constant[0],
-            position: [0.0; COORDINATES],
-            velocity: [0.0; COORDINATES],
-        };
+        let mut force = Affine::ZERO;
+        force.constant = piece.constant[0];
         force.position[0] = -piece.stiffness[0][0];
         force.velocity[0] = -piece.damping[0][0];
-        let mut distance = force;
-        (distance.position[0], distance.velocity[0]) = (1.0, 0.0);
         let force = self.signal(phase, &force);
         impact.impulse += force.integral(&self.record.phases, phase, length);
         self.add_peaks(phase, length, &force, impact);
-        let distance = self.signal(phase, &distance);
+        let distance = self.signal(phase, &Affine::coordinate(0));
         self.add_work(phase, length, [&force, &distance], impact);
     }
 
-    fn signal(&self, phase: Phase, guard: &Guard) -> Signal {
+    fn signal(&self, phase: Phase, function: &Affine) -> Signal {
         let mut signal = Signal::default();
         let remaining = self.problem.duration - phase.start;
         let phases = &self.record.phases;
         let views = &phases.spectra[phase.spectrum].views[self.first_view..];
-        signal.set::<Plain>(phases, phase, views, guard, remaining);
+        signal.set::<Plain>(phases, phase, views, function, remaining);
         signal
     }
 

@@ -1,7 +1,7 @@
 //! Reading one linear combination of the modal coordinates.
 
 use super::PhaseRecord;
-use crate::law::{COORDINATES, Guard};
+use crate::law::Affine;
 use crate::method::piecewise_linear::rows::ComplexBlock;
 use crate::method::piecewise_linear::signal::{Instant, Signal};
 use crate::method::piecewise_linear::view::View;
@@ -29,13 +29,8 @@ thread_local! {
     static READER: Cell<Option<Box<Reader>>> = const { Cell::new(None) };
 }
 
-/// The local coordinate itself.
-const COORDINATE: Guard = Guard {
-    name: "coordinate",
-    constant: 0.0,
-    position: [1.0, 0.0, 0.0],
-    velocity: [0.0; COORDINATES],
-};
+/// The combination as the only local coordinate.
+const COORDINATE: Affine = Affine::coordinate(0);
 
 impl Vectorised for Projection<'_> {
     type Output = Vec<f64>;
