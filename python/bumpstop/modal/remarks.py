@@ -14,18 +14,21 @@ _ROUNDING = 1e-9
 """A damping this small beside the largest of its matrix is rounding."""
 
 
-def rigid_told(motions: Sequence[str]) -> list[str]:
-    """Return a line that names the motions which strain nothing, where there are any.
+def rigid_told(motions: Sequence[str], longest: int = 6) -> list[str]:
+    """Return a line that names the first motions which strain nothing, where there are any.
 
     Examples
     --------
     >>> rigid_told(["translation along z"])
     ['1 rigid mode: translation along z']
+    >>> rigid_told(["a", "b", "c"], longest=2)
+    ['3 rigid modes: a; b; and 1 more']
     """
     if not motions:
         return []
     number = "1 rigid mode" if len(motions) == 1 else f"{len(motions)} rigid modes"
-    return [f"{number}: {'; '.join(motions)}"]
+    more = f"; and {len(motions) - longest} more" if len(motions) > longest else ""
+    return [f"{number}: {'; '.join(motions[:longest])}{more}"]
 
 
 def unstable_told(omega2: FloatArray) -> list[str]:
