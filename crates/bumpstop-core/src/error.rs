@@ -158,6 +158,20 @@ pub enum Error {
         /// Largest relative error with which the state is reproduced.
         defect: f64,
     },
+    /// A polynomial in time has too many powers.
+    #[error("a load's polynomial is of degree {found}; the highest is {highest}")]
+    Degree {
+        /// Its degree.
+        found: usize,
+        /// The highest that is taken.
+        highest: usize,
+    },
+    /// The times of a table are not in order.
+    #[error("the times of a load's table go backwards at t = {time} s")]
+    Backwards {
+        /// The first time that is earlier than the one before it, in s.
+        time: f64,
+    },
     /// A time outside the run was asked for.
     #[error("t = {time} s lies outside the run, which goes from 0 to {duration} s")]
     OutsideRun {

@@ -119,7 +119,7 @@ impl<L: Law> History<L> {
     }
 
     /// Shows modal displacement, velocity and law states at each time.
-    fn visit(&self, times: &[f64], mut see: impl FnMut(&[f64], &[f64], &[State])) {
+    fn visit(&self, times: &[f64], mut see: impl FnMut(f64, &[f64], &[f64], &[State])) {
         let modes = self.problem.system.modes();
         match &self.record {
             Record::Phases(record) => record.visit(times, modes, &mut see),
@@ -128,7 +128,7 @@ impl<L: Law> History<L> {
                 for &time in times {
                     record.sample(time, &mut q, &mut v);
                     let known = record.states_at(time);
-                    see(&q, &v, &sampled_states(&self.problem, known, &q, &v));
+                    see(time, &q, &v, &sampled_states(&self.problem, known, &q, &v));
                 }
             }
         }
@@ -142,10 +142,10 @@ impl<L: Law> History<L> {
         self.check_times(times)?;
         let modes = self.problem.system.modes();
         let mut rows = Vec::with_capacity(times.len() * modes);
-        self.visit(times, |q, v, states| match derivative {
+        self.visit(times, |time, q, v, states| match derivative {
             Derivative::Displacement => rows.extend_from_slice(q),
             Derivative::Velocity => rows.extend_from_slice(v),
-            Derivative::Acceleration => rows.extend(self.acceleration(q, v, states)),
+            Derivative::Acceleration => rows.extend(self.acceleration(time, q, v, states)),
         });
         Ok(rows)
     }
@@ -166,8 +166,9 @@ impl<L: Law> History<L> {
     }
 
     /// From the equation of motion.
-    fn acceleration(&self, q: &[f64], v: &[f64], states: &[State]) -> Vec<f64> {
-        let mut forces = self.problem.forcing.forces().to_vec();
+    fn acceleration(&self, time: f64, q: &[f64], v: &[f64], states: &[State]) -> Vec<f64> {
+        let mut forces = vec![0.0; q.len()];
+        self.problem.forcing.at(time, &mut forces);
         for (law, state) in self.problem.laws.iter().zip(states) {
             let force = law.force(*state, &project(law, q), &project(law, v));
             for (row, f) in law.rows().iter().zip(force) {
@@ -199,7 +200,7 @@ impl<L: Law> History<L> {
         self.check_times(times)?;
         let which = &self.problem.laws[law];
         let mut columns = [const { Vec::new() }; 3];
-        self.visit(times, |q, v, states| {
+        self.visit(times, |_, q, v, states| {
             let (position, rate) = (project(which, q), project(which, v));
             let (distance, speed) = which.distance(&position, &rate);
             columns[0].push(distance);
@@ -248,11 +249,11 @@ impl<L: Law> History<L> {
     fn law_samples(&self, law: usize, times: &[f64]) -> Vec<Sample> {
         let which = &self.problem.laws[law];
         let mut samples = Vec::with_capacity(times.len());
-        self.visit(times, |q, v, states| {
+        self.visit(times, |time, q, v, states| {
             let (position, rate) = (project(which, q), project(which, v));
             let (distance, speed) = which.distance(&position, &rate);
             samples.push(Sample {
-                time: times[samples.len()],
+                time,
                 distance,
                 speed,
                 force: which.force(states[law], &position, &rate)[0],
@@ -285,12 +286,13 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
     let mut v = vec![0.0; modes];
     let mut ledgers: Vec<Ledger> = Vec::with_capacity(record.steps + 1);
     let mut before: Option<Powers> = None;
+    let mut changing_work = 0.0;
     for n in 0..=record.steps {
         let q = record.displacement(n);
         record.velocity(n, &mut v);
         let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, &v);
         let known = record.states(n);
-        let powers = Powers::new(problem, known, q, &v);
+        let powers = Powers::new(problem, n as f64 * record.dt, known, q, &v);
         let mut ledger = Ledger {
             kinetic,
             elastic,
@@ -301,6 +303,8 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
         };
         if let (Some(previous), Some(last)) = (&before, ledgers.last()) {
             let half = 0.5 * record.dt;
+            changing_work += half * (previous.load + powers.load);
+            ledger.load_work += changing_work;
             ledger.modal_dissipation =
                 last.modal_dissipation + half * (previous.modal + powers.modal);
             for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
@@ -319,22 +323,25 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
     ledgers
 }
 
-/// Dissipated powers and stored energies at one sampled instant.
+/// Powers and stored energies at one sampled instant.
 struct Powers {
     modal: f64,
+    /// Of the loads that change in time.
+    load: f64,
     laws: Vec<f64>,
     stored: Vec<f64>,
     states: Vec<State>,
 }
 
 impl Powers {
-    fn new<L: Law>(problem: &Problem<L>, known: &[State], q: &[f64], v: &[f64]) -> Self {
+    fn new<L: Law>(problem: &Problem<L>, time: f64, known: &[State], q: &[f64], v: &[f64]) -> Self {
         let states = sampled_states(problem, known, q, v);
         let laws = || problem.laws.iter().zip(&states);
         Self {
             modal: (problem.system.damping().iter().zip(v))
                 .map(|(c, v)| c * v * v)
                 .sum(),
+            load: problem.forcing.changing_power(time, v),
             laws: laws()
                 .map(|(law, state)| {
                     let (position, velocity) = (project(law, q), project(law, v));

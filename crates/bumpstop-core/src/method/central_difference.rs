@@ -9,8 +9,8 @@
 
 use super::Observer;
 use super::fixed_step::{
-    Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, check_uncoupled,
-    coupling, highest_frequency, laws_damping, modal, pushed,
+    ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step,
+    check_uncoupled, coupling, highest_frequency, laws_damping, modal, pushed,
 };
 use crate::error::Result;
 use crate::history::History;
@@ -96,7 +96,8 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
         let gain = &coefficients.gain;
         let own = modal::<I, B>(&coefficients.own);
         let past = modal::<I, B>(&coefficients.past);
-        let load = modal::<I, B>(&weighted(problem.forcing.forces(), gain));
+        let mut load = modal::<I, B>(&weighted(problem.forcing.forces(), gain));
+        let mut changing = ChangingLoads::new(&problem.forcing, dt, gain);
         let laws = A::make(problem.laws.len(), |i| &problem.laws[i]);
         let laws = laws.as_ref();
         let couplings = A::make(laws.len(), |i| {
@@ -119,6 +120,15 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
+                if let Some(changing) = &mut changing {
+                    let now = changing.next();
+                    for (load, now) in load.as_mut().iter_mut().zip(now) {
+                        *load = Lanes::of_block(now);
+                    }
+                    for (law, contact) in laws.iter().zip(contacts.iter_mut()) {
+                        contact.load = project(*law, now.as_flattened());
+                    }
+                }
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
                     let (position, velocity) = (&contact.now, &contact.rate);
                     seen[i] = law.sampled_state(seen[i], position, velocity);
@@ -230,7 +240,7 @@ impl<I: Instructions, B: Count> Contact<I, B> {
 /// `q[-1] = q0 - dt v0 + dt^2/2 a0`, which starts the scheme at its own order.
 fn displacement_before<L: Law>(problem: &Problem<L>, dt: f64) -> Vec<f64> {
     let (q, v) = (&problem.displacement, &problem.velocity);
-    let mut forces = problem.forcing.forces().to_vec();
+    let [mut forces, _] = problem.forcing.at_start();
     for law in &problem.laws {
         let (position, rate) = (project(law, q), project(law, v));
         let force = law.force(

@@ -3,6 +3,7 @@
 
 use super::observe;
 use crate::error::{Error, Result};
+use crate::forcing::Forcing;
 use crate::history::Event;
 use crate::law::{COORDINATES, Law, Local, State, project};
 use crate::number::{Block, Instructions, LANES, Lanes, Vectorised, blocks};
@@ -311,6 +312,39 @@ pub(crate) fn modal<I: Instructions, B: Count>(numbers: &[f64]) -> Modal<I, B> {
     B::make(blocks.len(), |b| Lanes::of_block(&blocks[b]))
 }
 
+/// Loads that change in time, step by step.
+pub(crate) struct ChangingLoads<'a> {
+    forcing: &'a Forcing,
+    dt: f64,
+    gain: &'a [f64],
+    step: usize,
+    forces: Vec<Block>,
+}
+
+impl<'a> ChangingLoads<'a> {
+    /// The modal forces of a problem, each times its gain; `None` where they do not change.
+    pub(crate) fn new(forcing: &'a Forcing, dt: f64, gain: &'a [f64]) -> Option<Self> {
+        forcing.varies().then(|| Self {
+            forcing,
+            dt,
+            gain,
+            step: 0,
+            forces: blocks(gain),
+        })
+    }
+
+    /// Those of the next step, the first one at t = 0.
+    pub(crate) fn next(&mut self) -> &[Block] {
+        let forces = &mut self.forces.as_flattened_mut()[..self.gain.len()];
+        self.forcing.at(self.step as f64 * self.dt, forces);
+        for (force, gain) in forces.iter_mut().zip(self.gain) {
+            *force *= gain;
+        }
+        self.step += 1;
+        &self.forces
+    }
+}
+
 /// A march through time, compiled anew for the usual sizes of problems.
 pub(crate) trait March<L: Law> {
     /// The march for `B` blocks of modes and `A` laws.
@@ -371,7 +405,6 @@ pub(crate) fn pushed<L: Law>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::forcing::Forcing;
     use crate::history::{Derivative, History};
     use crate::law::Stop;
     use crate::method::{Method, simulate};

@@ -7,8 +7,8 @@
 
 use super::Observer;
 use super::fixed_step::{
-    Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step, check_uncoupled,
-    coupling, highest_frequency, laws_damping, modal, pushed,
+    ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step,
+    check_uncoupled, coupling, highest_frequency, laws_damping, modal, pushed,
 };
 use crate::error::Result;
 use crate::history::History;
@@ -73,8 +73,10 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
         let step = Lanes::<I>::of(dt);
         let omega2 = modal::<I, B>(problem.system.omega2());
         let damping = modal::<I, B>(problem.system.damping());
-        let load = modal::<I, B>(problem.forcing.forces());
+        let mut load = modal::<I, B>(problem.forcing.forces());
         let gain = vec![dt; problem.system.modes()];
+        let same = vec![1.0; problem.system.modes()];
+        let mut changing = ChangingLoads::new(&problem.forcing, dt, &same);
         let laws = A::make(problem.laws.len(), |i| &problem.laws[i]);
         let laws = laws.as_ref();
         let couplings = A::make(laws.len(), |i| {
@@ -96,6 +98,15 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
+                if let Some(changing) = &mut changing {
+                    let now = changing.next();
+                    for (load, now) in load.as_mut().iter_mut().zip(now) {
+                        *load = Lanes::of_block(now);
+                    }
+                    for (law, contact) in laws.iter().zip(contacts.iter_mut()) {
+                        contact.load = project(*law, now.as_flattened()).map(|p| dt * p);
+                    }
+                }
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
                     let (position, velocity) = (&contact.position, &contact.velocity);
                     seen[i] = law.sampled_state(seen[i], position, velocity);

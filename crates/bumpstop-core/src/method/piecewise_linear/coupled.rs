@@ -2,8 +2,10 @@
 
 use super::secular::Coupling;
 use crate::law::{COORDINATES, Law, Local, Piece, State};
+use crate::number::Complex;
 use crate::problem::Problem;
-use faer::Mat;
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
 
 /// `y'' + C y' + K y = p` with matrices of any symmetry and constant p.
 pub(crate) struct Coupled {
@@ -96,6 +98,31 @@ impl Coupled {
             damping: Mat::from_fn(n, n, |row, column| entry(&coupling.damping, c, row, column)),
             force: Mat::zeros(n, 1),
         }
+    }
+}
+
+impl Coupled {
+    /// `C y`
+    pub(crate) fn damped(&self, y: &[f64]) -> Vec<f64> {
+        let product = |i: usize| (0..y.len()).map(|k| self.damping[(i, k)] * y[k]).sum();
+        (0..y.len()).map(product).collect()
+    }
+
+    /// `(K + i omega C - omega^2)^-1 p`
+    pub(crate) fn harmonic(&self, omega: f64, forces: &[Complex<f64>]) -> Vec<Complex<f64>> {
+        let n = forces.len();
+        let dynamic = Mat::from_fn(n, n, |r, c| {
+            let inertia = if r == c { omega * omega } else { 0.0 };
+            c64::new(
+                self.stiffness[(r, c)] - inertia,
+                omega * self.damping[(r, c)],
+            )
+        });
+        let right = Mat::from_fn(n, 1, |i, _| c64::new(forces[i].re, forces[i].im));
+        let solution = dynamic.full_piv_lu().solve(&right);
+        (0..n)
+            .map(|i| Complex::new(solution[(i, 0)].re, solution[(i, 0)].im))
+            .collect()
     }
 }
 

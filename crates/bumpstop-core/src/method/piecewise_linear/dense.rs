@@ -30,7 +30,7 @@ pub(crate) fn couple<L: Law>(
     spectrum.combinations = modes.len();
     let damping = problem.system.damping();
     spectrum.group_damping = modes.iter().map(|&mode| damping[mode]).collect();
-    spectrum.at_rest = coupled.rest()?;
+    spectrum.at_rest = coupled.rest(&coupled.force)?;
     coupled.solve_into(spectrum)
 }
 
@@ -45,8 +45,8 @@ const UNBALANCED: f64 = 1e-9;
 impl Coupled {
     /// The position at rest under constant forces; that of no force where nothing pushes, even if
     /// some motion is free.
-    fn rest(&self) -> Result<Vec<f64>> {
-        let (n, forces) = (self.stiffness.nrows(), &self.force);
+    pub(crate) fn rest(&self, forces: &Mat<f64>) -> Result<Vec<f64>> {
+        let n = self.stiffness.nrows();
         let size = forces.norm_max();
         if size == 0.0 {
             return Ok(vec![0.0; n]);

@@ -158,9 +158,9 @@ impl Dissipation {
             }
         }
         for (index, single) in spectrum.singles.iter().enumerate() {
-            let (x0, v0) = phases.kept(phase, index);
+            let kept = phases.kept(phase, index);
             let rates = [rates_of(single, rate_at_start), rates_of(single, rate)];
-            let dissipated = single.motion.dissipation(x0, v0, t, rates);
+            let dissipated = single.motion.dissipation(kept, t, rates);
             total.modal += single.modal_share * dissipated;
             if let Some(law) = single.law {
                 total.laws[law] += (1.0 - single.modal_share) * dissipated;

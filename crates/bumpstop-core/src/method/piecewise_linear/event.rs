@@ -137,7 +137,7 @@ pub(crate) fn initial_states<L: Law>(problem: &Problem<L>) -> Vec<State> {
 /// The local motion at t = 0 without the laws.
 fn free_motion<L: Law>(problem: &Problem<L>, law: &L) -> LocalMotion {
     let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
-    let forces = problem.forcing.forces();
+    let [forces, force_rates] = problem.forcing.at_start();
     let coupled = |mode: usize, position: &[f64], velocity: &[f64]| {
         let part = |matrix: Option<&Coupling>, motion: &[f64]| {
             matrix.map_or(0.0, |matrix| matrix.product(mode, motion))
@@ -161,8 +161,10 @@ fn free_motion<L: Law>(problem: &Problem<L>, law: &L) -> LocalMotion {
         for i in 0..omega2.len() {
             let (q, v) = (problem.displacement[i], problem.velocity[i]);
             let a = acceleration(i);
-            let jerk =
-                -damping[i] * a - omega2[i] * v - coupled(i, &problem.velocity, &accelerations);
+            let jerk = force_rates[i]
+                - damping[i] * a
+                - omega2[i] * v
+                - coupled(i, &problem.velocity, &accelerations);
             let terms = [q, v, a, jerk].map(|derivative| row[i] * derivative);
             let zero = terms.map(|term| 8.0 * f64::EPSILON * term.abs());
             motion.add(coordinate, terms, zero);

@@ -12,11 +12,15 @@ mod dense;
 mod dissipation;
 mod event;
 mod grouping;
+mod impedance;
 mod jet;
 mod phase;
+mod polynomial;
 mod product;
 mod quadrature;
 mod record;
+mod resonance;
+mod response;
 mod rows;
 mod secular;
 mod signal;
@@ -85,6 +89,8 @@ struct Scratch {
     watch: Watch,
     work: Workspace,
     bench: Workbench,
+    /// Where in its table each load stands.
+    places: Vec<usize>,
 }
 
 thread_local! {
@@ -126,6 +132,7 @@ impl<'a, L: Law> Run<'a, L> {
             if (self.phases.list.len()).is_multiple_of(PHASES_BETWEEN_OBSERVATIONS) {
                 observe(observer, time)?;
             }
+            let knot = self.meet_loads(time);
             self.begin::<I>(time, &states, &q, &v)?;
             let phase = self.phases.list[self.phases.list.len() - 1];
             self.scratch
@@ -137,11 +144,18 @@ impl<'a, L: Law> Run<'a, L> {
                 signals: self.scratch.watch.active(),
                 starts: &self.scratch.watch.starts,
                 from: 0.0,
-                limit: problem.duration - time,
+                limit: problem.duration.min(knot) - time,
             };
             let crossing = (self.scratch.walk).first_zero::<I>(path, &mut self.certificate);
             let Some(crossing) = crossing else {
-                return Ok(());
+                if knot >= problem.duration {
+                    return Ok(());
+                }
+                let length = knot - time;
+                self.phases
+                    .motion::<I>(phase, length, &mut self.scratch.work, &mut q, &mut v);
+                (time, fired, at_once) = (knot, None, 0);
+                continue;
             };
             at_once = if time + crossing.time > time {
                 0
@@ -160,6 +174,19 @@ impl<'a, L: Law> Run<'a, L> {
             fired = Some((event.law, guard));
             self.events.push(event);
         }
+    }
+
+    /// Turns to the loads from a time on; returns the next instant at which one of them has a
+    /// knot.
+    #[inline(always)]
+    fn meet_loads(&mut self, time: f64) -> f64 {
+        let forcing = &self.problem.forcing;
+        if !forcing.varies() {
+            return f64::INFINITY;
+        }
+        let Scratch { places, work, .. } = &mut *self.scratch;
+        forcing.onset(time, places, &mut work.onset);
+        forcing.next_knot(places)
     }
 
     /// Starts a phase; a spectrum of the secular equation that fails the phase's check is

@@ -1,10 +1,13 @@
 //! Phases: stretches of time in which no law switches, kept as amplitudes of exponentials.
 
+use super::response::Response;
 use super::rows::{ComplexBlock, entry, set_entry};
+use super::single_mode::Kept;
 use super::spectrum::{Single, Spectrum, Subject};
 use crate::error::{Error, Result};
+use crate::forcing::Onset;
 use crate::law::State;
-use crate::number::{Instructions, LANES, Lanes, Number};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use std::cell::Cell;
 
 /// The largest error, relative to the state's largest part, with which the amplitudes of a
@@ -23,6 +26,8 @@ pub(crate) struct Phase {
     amplitudes: usize,
     kept: usize,
     states: usize,
+    /// Where the polynomials of its loads start.
+    coefficients: usize,
 }
 
 /// The phases of a run in order of time.
@@ -33,6 +38,8 @@ pub(crate) struct Phases {
     amplitudes: Vec<ComplexBlock>,
     kept: Vec<f64>,
     states: Vec<State>,
+    /// Polynomials of the loads that change in time.
+    coefficients: Vec<f64>,
     /// Spectra of an earlier run, for their memory.
     spare: Vec<Spectrum>,
 }
@@ -61,6 +68,16 @@ pub(crate) struct Workspace {
     lack_velocity: Vec<f64>,
     given_position: Vec<f64>,
     given_velocity: Vec<f64>,
+    /// The loads that change in time, at the start of the phase that is to begin.
+    pub onset: Onset,
+    free: Free,
+}
+
+/// A state less what follows the loads.
+#[derive(Debug, Clone, Default)]
+struct Free {
+    q: Vec<f64>,
+    v: Vec<f64>,
 }
 
 impl Workspace {
@@ -68,6 +85,22 @@ impl Workspace {
     fn fit(&mut self, blocks: usize) {
         self.z.resize(blocks, ComplexBlock::ZERO);
         self.rate.resize(blocks, ComplexBlock::ZERO);
+    }
+
+    /// A state less what follows the loads at their onset.
+    fn less_loads(&mut self, response: &Response, q: &[f64], v: &[f64]) -> Free {
+        let mut free = std::mem::take(&mut self.free);
+        free.q.clear();
+        free.q.extend_from_slice(q);
+        free.v.clear();
+        free.v.extend_from_slice(v);
+        let Onset {
+            coefficients,
+            units,
+        } = &self.onset;
+        let units = |harmonic: usize| units[harmonic];
+        response.add_motion(-1.0, coefficients, units, 0.0, &mut free.q, &mut free.v);
+        free
     }
 }
 
@@ -80,13 +113,15 @@ impl Phases {
         phases.amplitudes.clear();
         phases.kept.clear();
         phases.states.clear();
+        phases.coefficients.clear();
         phases
     }
 
     /// Leaves the memory to the next run on this thread.
     pub(crate) fn leave(&mut self) {
         let vectors: usize = self.spectra.iter().map(Spectrum::numbers).sum();
-        let numbers = vectors + self.amplitudes.len() * 2 * LANES + self.kept.len();
+        let kept = self.kept.len() + self.coefficients.len();
+        let numbers = vectors + self.amplitudes.len() * 2 * LANES + kept;
         if numbers <= MOST_SPARE {
             SPARE.set(Some(std::mem::take(self)));
         }
@@ -97,7 +132,8 @@ impl Phases {
         self.spare.pop().unwrap_or_default()
     }
 
-    /// Starts a phase from a motion, with the laws in the given states.
+    /// Starts a phase from a motion, with the laws in the given states; the onset of the loads is
+    /// in the workspace where they change in time.
     ///
     /// # Errors
     /// [`Error::Defective`] when the amplitudes do not give the state back,
@@ -112,12 +148,16 @@ impl Phases {
         v: &[f64],
         work: &mut Workspace,
     ) -> Result<()> {
+        let response = self.spectra[spectrum].response.as_ref();
+        let free = response.map(|response| work.less_loads(response, q, v));
+        let (q, v) = free.as_ref().map_or((q, v), |free| (&free.q, &free.v));
         let phase = Phase {
             start,
             spectrum,
             amplitudes: self.amplitudes.len(),
             kept: self.kept.len(),
             states: self.states.len(),
+            coefficients: self.coefficients.len(),
         };
         let which = &self.spectra[spectrum];
         work.fit(which.lambda.len());
@@ -148,7 +188,24 @@ impl Phases {
         self.amplitudes.extend_from_slice(&work.z);
         self.states.extend_from_slice(states);
         self.list.push(phase);
+        if let Some(free) = free {
+            work.free = free;
+            self.keep_loads(phase, &work.onset);
+        }
         Ok(())
+    }
+
+    /// Keeps the loads of a phase that has just begun.
+    fn keep_loads(&mut self, phase: Phase, onset: &Onset) {
+        let Some(response) = &self.spectra[phase.spectrum].response else {
+            return;
+        };
+        self.coefficients.extend_from_slice(&onset.coefficients);
+        response.keep_slow_loads(onset, &mut self.kept);
+        let amplitudes = &mut self.amplitudes[phase.amplitudes..];
+        for (harmonic, unit) in onset.units.iter().enumerate() {
+            set_entry(amplitudes, response.at + harmonic, *unit);
+        }
     }
 
     /// Keeps a spectrum; returns its number.
@@ -164,11 +221,26 @@ impl Phases {
         &self.amplitudes[phase.amplitudes..][..blocks]
     }
 
-    /// Initial position and velocity of a single motion.
+    /// Initial position and velocity of a single motion, and the load on it where it is slow.
     #[inline(always)]
-    pub(crate) fn kept(&self, phase: Phase, single: usize) -> (f64, f64) {
-        let at = phase.kept + 2 * single;
-        (self.kept[at], self.kept[at + 1])
+    pub(crate) fn kept(&self, phase: Phase, single: usize) -> Kept<'_> {
+        let kept = &self.kept[phase.kept..];
+        let response = self.spectra[phase.spectrum].response.as_ref();
+        Kept {
+            x: kept[2 * single],
+            v: kept[2 * single + 1],
+            load: response.map_or(&[], |response| response.slow_load(single, kept)),
+        }
+    }
+
+    /// The polynomials of the loads in the time since the start of a phase.
+    pub(crate) fn coefficients(&self, phase: Phase) -> &[f64] {
+        &self.coefficients[phase.coefficients..]
+    }
+
+    /// `exp(i omega start)` of a harmonic load.
+    pub(crate) fn unit(&self, phase: Phase, response: &Response, harmonic: usize) -> Complex<f64> {
+        entry(self.amplitudes(phase), response.at + harmonic)
     }
 
     /// Fills the workspace with the exponentials of a phase, `t` after its start.
@@ -220,6 +292,10 @@ impl Phases {
             q[member.mode] += member.weight * work.position[member.group];
             v[member.mode] += member.weight * work.velocity[member.group];
         }
+        if let Some(response) = &spectrum.response {
+            let units = |harmonic: usize| self.unit(phase, response, harmonic);
+            response.add_motion(1.0, self.coefficients(phase), units, t, q, v);
+        }
     }
 
     #[inline(always)]
@@ -231,12 +307,12 @@ impl Phases {
         t: f64,
         work: &Workspace,
     ) -> (f64, f64) {
-        let (x0, v0) = self.kept(phase, index);
+        let kept = self.kept(phase, index);
         if single.motion.is_special() {
-            let [x, v, _] = single.motion.special(x0, v0, t);
+            let [x, v, ..] = single.motion.special(kept, t);
             return (x, v);
         }
-        let p = single.motion.polynomial(x0, v0);
+        let p = single.motion.polynomial(kept.x, kept.v);
         let (mut x, mut v) = (p[0] + t * (p[1] + t * p[2]), p[1] + 2.0 * t * p[2]);
         for i in 0..single.motion.exponents().1 {
             x += entry(&work.z, single.at + i).re;

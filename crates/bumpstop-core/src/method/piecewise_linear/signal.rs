@@ -1,8 +1,12 @@
 //! A guard along a phase: a polynomial plus exponentials plus special motions.
 
+mod loads;
+
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
+use super::polynomial::Polynomial;
 use super::product::{Factor, grown};
+use super::resonance::Resonant;
 use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
 use super::spectrum::Spectrum;
 use super::tables::CELLS_BETWEEN_ANCHORS;
@@ -32,6 +36,8 @@ struct Special {
     single: usize,
     of_position: f64,
     of_velocity: f64,
+    /// Factor of the load that a slow motion is kept with.
+    of_load: f64,
     third: f64,
 }
 
@@ -51,12 +57,13 @@ impl Terms {
     };
 }
 
-/// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials`.
+/// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials + resonances`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Signal {
     terms: Vec<Terms>,
-    polynomial: [f64; 3],
+    polynomial: Polynomial,
     specials: Vec<Special>,
+    resonances: Vec<Resonant>,
     remaining: f64,
     /// `sum |b| |lambda|^n`
     totals: [f64; 3],
@@ -82,8 +89,9 @@ impl Signal {
         remaining: f64,
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
-        self.polynomial = [function.constant, 0.0, 0.0];
+        self.polynomial = Polynomial::constant(function.constant);
         self.specials.clear();
+        self.resonances.clear();
         self.remaining = remaining;
         let amplitudes = phases.amplitudes(phase);
         self.terms.resize(amplitudes.len(), Terms::ZERO);
@@ -112,8 +120,12 @@ impl Signal {
         self.at_start = [sums[3], sums[4], sums[5]];
         for (coordinate, view) in views.iter().enumerate().take(COORDINATES) {
             if function.sees(coordinate) {
-                self.polynomial[0] += function.position[coordinate] * view.rest;
+                self.polynomial
+                    .add(0, function.position[coordinate] * view.rest);
                 self.add_singles(phases, phase, view, function, coordinate);
+                if let Some(response) = &spectrum.response {
+                    self.add_loads(response, phases, phase, view, function, coordinate);
+                }
             }
         }
     }
@@ -136,28 +148,31 @@ impl Signal {
                 continue;
             }
             let motion = &spectrum.singles[single].motion;
-            let (x0, v0) = phases.kept(phase, single);
+            let kept = phases.kept(phase, single);
             let (mut position, mut velocity) = (weight * of_position, weight * of_velocity);
             let acceleration = weight * of_acceleration;
             if motion.is_special() {
-                // x'' = force - c x' - w2 x
-                self.polynomial[0] += acceleration * motion.force;
+                // x'' = force + load - c x' - w2 x
+                self.polynomial.add(0, acceleration * motion.force);
                 position -= acceleration * motion.omega2;
                 velocity -= acceleration * motion.damping;
-                let third = position.abs() * motion.special_bound(3, x0, v0, self.remaining)
-                    + velocity.abs() * motion.special_bound(4, x0, v0, self.remaining);
+                let third = position.abs() * motion.special_bound(3, kept, self.remaining)
+                    + velocity.abs() * motion.special_bound(4, kept, self.remaining)
+                    + acceleration.abs() * kept.load_bound(3, self.remaining);
                 self.specials.push(Special {
                     single,
                     of_position: position,
                     of_velocity: velocity,
+                    of_load: acceleration,
                     third,
                 });
-                self.totals[0] += position.abs() * x0.abs() + velocity.abs() * v0.abs();
+                self.totals[0] += position.abs() * kept.x.abs() + velocity.abs() * kept.v.abs();
             } else {
-                let p = motion.polynomial(x0, v0);
-                self.polynomial[0] += position * p[0] + velocity * p[1] + 2.0 * acceleration * p[2];
-                self.polynomial[1] += position * p[1] + 2.0 * velocity * p[2];
-                self.polynomial[2] += position * p[2];
+                let p = motion.polynomial(kept.x, kept.v);
+                let value = position * p[0] + velocity * p[1] + 2.0 * acceleration * p[2];
+                self.polynomial.add(0, value);
+                (self.polynomial).add(1, position * p[1] + 2.0 * velocity * p[2]);
+                self.polynomial.add(2, position * p[2]);
             }
         }
     }
@@ -165,10 +180,14 @@ impl Signal {
     /// Bound of the rounding of a value at time t.
     #[inline(always)]
     pub(crate) fn rounding(&self, t: f64) -> f64 {
-        let p = self.polynomial;
-        let polynomial = p[0].abs() + t * (p[1].abs() + t * p[2].abs());
+        let polynomial = self.polynomial.size(t);
         let blocks = 0.5 * f64::EPSILON * self.terms.len() as f64;
-        (ROUNDING + blocks) * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t
+        let exponentials =
+            (ROUNDING + blocks) * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t;
+        if self.resonances.is_empty() {
+            return exponentials;
+        }
+        exponentials + self.rounding_of_resonances(t)
     }
 
     /// The signal's rate.
@@ -195,21 +214,26 @@ impl Signal {
                 }
             }
         }
-        let p = self.polynomial;
-        rate.polynomial = [p[1], 2.0 * p[2], 0.0];
+        rate.polynomial = self.polynomial.derivative();
         for special in &mut rate.specials {
             let single = special.single;
             let motion = &spectrum.singles[single].motion;
-            let (x0, v0) = phases.kept(phase, single);
-            // x'' = force - c x' - w2 x
+            let kept = phases.kept(phase, single);
+            // x'' = force + load - c x' - w2 x
             let velocity = special.of_velocity;
-            rate.polynomial[0] += velocity * motion.force;
+            rate.polynomial.add(0, velocity * motion.force);
+            special.of_load = velocity;
             special.of_velocity = special.of_position - motion.damping * velocity;
             special.of_position = -motion.omega2 * velocity;
-            let bound = |order| motion.special_bound(order, x0, v0, self.remaining);
+            let bound = |order| motion.special_bound(order, kept, self.remaining);
             special.third =
                 special.of_position.abs() * bound(3) + special.of_velocity.abs() * bound(4);
-            rate.totals[0] += special.of_velocity.abs() * v0.abs();
+            special.third += velocity.abs() * kept.load_bound(3, self.remaining);
+            rate.totals[0] += special.of_velocity.abs() * kept.v.abs();
+        }
+        rate.resonances.clear();
+        for resonant in &self.resonances {
+            rate.add_resonant_rate(*resonant);
         }
         rate
     }
@@ -223,19 +247,22 @@ impl Signal {
                 }
             }
         }
-        self.polynomial = self.polynomial.map(|x| -x);
+        self.polynomial.negate();
         self.at_start = self.at_start.map(|x| -x);
         for special in &mut self.specials {
             special.of_position = -special.of_position;
             special.of_velocity = -special.of_velocity;
+            special.of_load = -special.of_load;
+        }
+        for resonant in &mut self.resonances {
+            resonant.weight = -resonant.weight;
         }
     }
 
     /// Integral from the start of the phase to t after it.
     pub(crate) fn integral(&self, phases: &Phases, phase: Phase, t: f64) -> f64 {
         let spectrum = &phases.spectra[phase.spectrum];
-        let p = self.polynomial;
-        let mut total = t * (p[0] + t * (p[1] / 2.0 + t * p[2] / 3.0));
+        let mut total = self.polynomial.integral(t);
         for (terms, lambda) in self.terms.iter().zip(&spectrum.lambda) {
             for lane in 0..LANES {
                 if terms.size.0[lane] > 0.0 {
@@ -247,18 +274,20 @@ impl Signal {
         }
         for special in &self.specials {
             let motion = &spectrum.singles[special.single].motion;
-            let (x0, v0) = phases.kept(phase, special.single);
-            let [x, ..] = motion.special(x0, v0, t);
-            total += special.of_position * motion.special_integral(x0, v0, t);
-            total += special.of_velocity * (x - x0);
+            let kept = phases.kept(phase, special.single);
+            let [x, ..] = motion.special(kept, t);
+            total += special.of_position * motion.special_integral(kept, t);
+            total += special.of_velocity * (x - kept.x);
+            total += special.of_load * kept.load(-1, t);
         }
-        total
+        let resonances = self.resonances.iter();
+        total + resonances.map(|resonant| resonant.integral(t)).sum::<f64>()
     }
 
     /// The signal as a factor of a product.
     pub(crate) fn factor<'a>(&'a self, phases: &'a Phases, phase: Phase) -> Factor<'a> {
         let spectrum = &phases.spectra[phase.spectrum];
-        let mut factor = Factor::of_polynomial(&self.polynomial);
+        let mut factor = Factor::of_polynomial(self.polynomial.terms());
         for (terms, lambda) in self.terms.iter().zip(&spectrum.lambda) {
             for lane in 0..LANES {
                 if terms.size.0[lane] > 0.0 {
@@ -267,27 +296,19 @@ impl Signal {
                 }
             }
         }
-        if self.specials.is_empty() {
+        if self.specials.is_empty() && self.resonances.is_empty() {
             return factor;
         }
         let paces = self.specials.iter().map(|special| {
             let motion = &spectrum.singles[special.single].motion;
             motion.omega2.abs().sqrt().max(motion.damping)
         });
+        let paces = paces.chain(self.resonances.iter().map(|r| r.lambda.norm().max(r.omega)));
         factor.with_other(paces.fold(0.0, f64::max), move |t| {
-            self.special_value(phases, phase, t)
+            let mut values = [0.0; 3];
+            self.add_specials(phases, phase, t, &mut values);
+            values[0]
         })
-    }
-
-    /// The special parts together.
-    fn special_value(&self, phases: &Phases, phase: Phase, t: f64) -> f64 {
-        let singles = &phases.spectra[phase.spectrum].singles;
-        let value = |special: &Special| {
-            let (x0, v0) = phases.kept(phase, special.single);
-            let [x, v, _] = singles[special.single].motion.special(x0, v0, t);
-            special.of_position * x + special.of_velocity * v
-        };
-        self.specials.iter().map(value).sum()
     }
 
     /// Makes the signal positive just after the start of the phase; tells whether it is so at
@@ -308,15 +329,18 @@ impl Signal {
         let mut bounds = [self.totals[1], self.totals[2]];
         for special in &self.specials {
             let motion = &phases.spectra[phase.spectrum].singles[special.single].motion;
-            let (x0, v0) = phases.kept(phase, special.single);
-            let [x, v, a] = motion.special(x0, v0, 0.0);
-            let sizes = [x.abs(), v.abs(), a.abs(), motion.damping * a.abs()];
-            bounds[0] +=
-                special.of_position.abs() * sizes[1] + special.of_velocity.abs() * sizes[2];
-            bounds[1] +=
-                special.of_position.abs() * sizes[2] + special.of_velocity.abs() * sizes[3];
+            let kept = phases.kept(phase, special.single);
+            let [_, v, a, jerk] = motion.special(kept, 0.0).map(f64::abs);
+            let (position, velocity) = (special.of_position.abs(), special.of_velocity.abs());
+            bounds[0] += position * v + velocity * a;
+            bounds[1] += position * a + velocity * jerk.max(motion.damping * a);
         }
-        let p = self.polynomial;
+        for resonant in &self.resonances {
+            let size = resonant.weight.norm();
+            bounds[0] += size;
+            bounds[1] += size * (resonant.lambda.norm() + resonant.omega);
+        }
+        let p = self.polynomial.coefficients;
         [
             ROUNDING * (bounds[0] + p[1].abs()),
             ROUNDING * (bounds[1] + 2.0 * p[2].abs()),
@@ -330,6 +354,9 @@ impl Signal {
         let mut pace = if size > 0.0 { bending / size } else { 0.0 };
         for special in &self.specials {
             pace = pace.max(spectrum.singles[special.single].motion.omega2.abs());
+        }
+        for resonant in &self.resonances {
+            pace = pace.max(resonant.omega * resonant.omega);
         }
         pace.sqrt()
     }
@@ -396,17 +423,29 @@ impl Signal {
     /// Polynomial and special parts.
     #[inline(always)]
     fn add_slow(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
-        let p = self.polynomial;
-        values[0] += p[0] + t * (p[1] + t * p[2]);
-        values[1] += p[1] + 2.0 * t * p[2];
-        values[2] += 2.0 * p[2];
+        self.polynomial.add_to(t, values);
+        self.add_specials(phases, phase, t, values);
+    }
+
+    /// Special parts and resonances.
+    #[inline(always)]
+    fn add_specials(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
         for special in &self.specials {
             let motion = &phases.spectra[phase.spectrum].singles[special.single].motion;
-            let (x0, v0) = phases.kept(phase, special.single);
-            let [x, v, a] = motion.special(x0, v0, t);
-            let jerk = -motion.damping * a - motion.omega2 * v;
+            let kept = phases.kept(phase, special.single);
+            let [x, v, a, jerk] = motion.special(kept, t);
             for (value, (x, v)) in values.iter_mut().zip([(x, v), (v, a), (a, jerk)]) {
                 *value += special.of_position * x + special.of_velocity * v;
+            }
+            if special.of_load != 0.0 {
+                for (value, order) in values.iter_mut().zip(0..) {
+                    *value += special.of_load * kept.load(order, t);
+                }
+            }
+        }
+        for resonant in &self.resonances {
+            for (value, part) in values.iter_mut().zip(resonant.values(t)) {
+                *value += part;
             }
         }
     }
@@ -459,7 +498,7 @@ impl Signal {
             value: values[0],
             slope: values[1],
             curvature: values[2],
-            third: totals[3] + specials,
+            third: totals[3] + specials + self.third_of_loads(at.time + reach),
             rest: [totals[4], totals[5], totals[6]],
             rounding: self.rounding(at.time + reach),
         }

@@ -4,6 +4,7 @@
 //! exponentials), drift without stiffness, and two that no sum of exponentials serves well:
 //! near critical damping, and so slow that the whole run is a small part of a period.
 
+use super::polynomial::{derivative_at, of_derivative};
 use crate::number::{Complex, Number};
 
 /// Slow: `w T` and `c T` below this over the run's length T. Faster modes lose at most a
@@ -35,6 +36,29 @@ pub(crate) enum Regime {
     NearCritical,
     /// Taylor series from the start of the phase.
     Slow,
+}
+
+/// What is kept of a mode for a phase: its state at the start, less what follows the loads that
+/// change in time, and for a slow mode the coefficients of those loads in the time since then.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Kept<'a> {
+    pub x: f64,
+    pub v: f64,
+    pub load: &'a [f64],
+}
+
+impl Kept<'_> {
+    /// The load's value or one of its derivatives at t.
+    pub(crate) fn load(&self, order: i32, t: f64) -> f64 {
+        derivative_at(self.load, order, t)
+    }
+
+    /// A bound of it from 0 to t.
+    pub(crate) fn load_bound(&self, order: i32, t: f64) -> f64 {
+        (0..self.load.len()).rev().fold(0.0, |bound, power| {
+            bound * t + of_derivative(self.load, order, power).abs()
+        })
+    }
 }
 
 /// A mode's constants.
@@ -131,28 +155,36 @@ impl SingleMode {
         matches!(self.regime, Regime::NearCritical | Regime::Slow)
     }
 
-    /// Value and first two derivatives of a special mode at time t after the start.
-    pub(crate) fn special(&self, x0: f64, v0: f64, t: f64) -> [f64; 3] {
+    /// Value and first three derivatives of a special mode at time t after the start.
+    pub(crate) fn special(&self, kept: Kept<'_>, t: f64) -> [f64; 4] {
         let (x, v) = match self.regime {
-            Regime::Slow => self.taylor(x0, v0, t),
-            _ => self.near_critical(x0, v0, t),
+            Regime::Slow => self.taylor(kept, t),
+            _ => self.near_critical(kept.x, kept.v, t),
         };
-        [x, v, self.force - self.damping * v - self.omega2 * x]
+        let a = self.force + kept.load(0, t) - self.damping * v - self.omega2 * x;
+        [
+            x,
+            v,
+            a,
+            kept.load(1, t) - self.damping * a - self.omega2 * v,
+        ]
     }
 
     /// A bound of the third (`order` 3) or fourth (4) derivative of a special mode over a phase.
-    pub(crate) fn special_bound(&self, order: usize, x0: f64, v0: f64, duration: f64) -> f64 {
+    pub(crate) fn special_bound(&self, order: usize, kept: Kept<'_>, duration: f64) -> f64 {
         let (w2, c, p) = (self.omega2, self.damping, self.force);
+        let (x0, v0) = (kept.x, kept.v);
         if self.regime == Regime::Slow {
             // speed <= |v0| + (|p| + |w2| (|x0| + speed T)) T, and |w2| T^2 < 1/2.
-            let speed = 2.0 * (v0.abs() + (p.abs() + w2.abs() * x0.abs()) * duration);
+            let push = p.abs() + kept.load_bound(0, duration);
+            let speed = 2.0 * (v0.abs() + (push + w2.abs() * x0.abs()) * duration);
             let size = x0.abs() + speed * duration;
-            let second = p.abs() + c * speed + w2.abs() * size;
-            let third = c * second + w2.abs() * speed;
+            let second = push + c * speed + w2.abs() * size;
+            let third = kept.load_bound(1, duration) + c * second + w2.abs() * speed;
             return if order == 3 {
                 third
             } else {
-                c * third + w2.abs() * second
+                kept.load_bound(2, duration) + c * third + w2.abs() * second
             };
         }
         // v^2 + w2 x^2 never grows (x from rest), and each derivative is some row . (v, x).
@@ -165,12 +197,12 @@ impl SingleMode {
     }
 
     /// Integral of a special mode's displacement from the start of the phase to t.
-    pub(crate) fn special_integral(&self, x0: f64, v0: f64, t: f64) -> f64 {
+    pub(crate) fn special_integral(&self, kept: Kept<'_>, t: f64) -> f64 {
         if self.regime == Regime::Slow {
-            return gauss_legendre(t, |t| self.special(x0, v0, t)[0]);
+            return gauss_legendre(t, |t| self.special(kept, t)[0]);
         }
-        let [x, v, _] = self.special(x0, v0, t);
-        (self.force * t - (v - v0) - self.damping * (x - x0)) / self.omega2
+        let [x, v, ..] = self.special(kept, t);
+        (self.force * t - (v - kept.v) - self.damping * (x - kept.x)) / self.omega2
     }
 
     fn near_critical(&self, x0: f64, v0: f64, t: f64) -> (f64, f64) {
@@ -187,24 +219,26 @@ impl SingleMode {
         )
     }
 
-    fn taylor(&self, x0: f64, v0: f64, t: f64) -> (f64, f64) {
+    fn taylor(&self, kept: Kept<'_>, t: f64) -> (f64, f64) {
         let (mut x, mut v) = (0.0, 0.0);
-        let (mut low, mut high) = (x0, v0);
-        let mut power = 1.0;
+        let (mut low, mut high) = (kept.x, kept.v);
+        let (mut power, mut factorial) = (1.0, 1.0);
         for n in 0..TAYLOR_TERMS {
             x += low * power;
             v += high * power;
-            let force = if n == 0 { self.force } else { 0.0 };
-            let next = force - self.damping * high - self.omega2 * low;
+            let constant = if n == 0 { self.force } else { 0.0 };
+            let load = kept.load.get(n).map_or(0.0, |c| c * factorial);
+            let next = constant + load - self.damping * high - self.omega2 * low;
             (low, high) = (high, next);
             power *= t / (n + 1) as f64;
+            factorial *= (n + 1) as f64;
         }
         (x, v)
     }
 
     /// `c` times the integral of the squared velocity from the start of the phase to t. The
     /// rates of the mode's exponentials at both ends are given.
-    pub(crate) fn dissipation(&self, x0: f64, v0: f64, t: f64, rates: [Rates; 2]) -> f64 {
+    pub(crate) fn dissipation(&self, kept: Kept<'_>, t: f64, rates: [Rates; 2]) -> f64 {
         let c = self.damping;
         if c == 0.0 {
             return 0.0;
@@ -229,13 +263,13 @@ impl SingleMode {
                 c * (drift * drift * t - (primitive(rates[1]) - primitive(rates[0])))
             }
             Regime::NearCritical => {
-                self.lyapunov(x0, v0) - {
-                    let end = self.special(x0, v0, t);
+                self.lyapunov(kept.x, kept.v) - {
+                    let end = self.special(kept, t);
                     self.lyapunov(end[0], end[1])
                 }
             }
             Regime::Slow => {
-                let speed = |t: f64| self.special(x0, v0, t)[1];
+                let speed = |t: f64| self.special(kept, t)[1];
                 c * gauss_legendre(t, |t| speed(t) * speed(t))
             }
             Regime::Free => 0.0,
@@ -290,9 +324,13 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn free(x: f64, v: f64) -> Kept<'static> {
+        Kept { x, v, load: &[] }
+    }
+
     fn motion(mode: &SingleMode, x0: f64, v0: f64, t: f64) -> (f64, f64) {
         if mode.is_special() {
-            let [x, v, _] = mode.special(x0, v0, t);
+            let [x, v, ..] = mode.special(free(x0, v0), t);
             return (x, v);
         }
         let (exponents, count) = mode.exponents();
@@ -368,7 +406,7 @@ mod tests {
             let rates = [0.0, t].map(|t| {
                 std::array::from_fn(|i| amplitudes[i] * exponents[i] * exponents[i].scale(t).exp())
             });
-            let found = mode.dissipation(x0, v0, t, rates);
+            let found = mode.dissipation(free(x0, v0), t, rates);
             prop_assert!((found - expected).abs() < 1e-10 * (1.0 + expected.abs()), "{mode:?}");
         }
     }

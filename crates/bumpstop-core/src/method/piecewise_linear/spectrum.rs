@@ -5,11 +5,14 @@
 //! move by themselves. Modes that are alike (same `omega2`, same damping) and pushed by one law
 //! only are split into the combination that it pushes and the rest that it does not see.
 
+use super::coupled::Coupled;
 use super::dense;
 use super::grouping::{Acting, Acts, group_alike, group_forces, static_groups};
+use super::impedance::Impedance;
+use super::response::{Response, is_slow};
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
-use super::single_mode::SingleMode;
+use super::single_mode::{Regime, SingleMode};
 use super::view::View;
 use crate::error::{Error, Result};
 use crate::law::{Law, State};
@@ -75,6 +78,10 @@ pub(crate) struct Spectrum {
     pub fastest: f64,
     /// Whether the coupled part came from the secular equation.
     pub is_secular: bool,
+    /// Where the exponents of harmonic loads start, behind all others.
+    pub forced_at: usize,
+    /// How it follows loads that change in time, where there are such.
+    pub response: Option<Box<Response>>,
 }
 
 /// Whether the secular equation may be used.
@@ -117,8 +124,11 @@ impl Spectrum {
             Acts::Several => dense::couple(&mut spectrum, problem, states)?,
         }
         spectrum.add_singles(problem, bench);
-        spectrum.lay_out_exponents();
+        spectrum.lay_out_exponents(problem);
         spectrum.measure_exponents::<I>();
+        if problem.forcing.varies() {
+            spectrum.respond(problem, bench)?;
+        }
         let mut views = std::mem::take(&mut spectrum.views);
         let mut count = 0;
         for law in &problem.laws {
@@ -147,7 +157,27 @@ impl Spectrum {
         self.singles.clear();
         (self.groups, self.coupled_width, self.combinations) = (0, 0, 0);
         self.is_secular = false;
+        self.response = None;
         self
+    }
+
+    /// Finds how it follows loads that change in time.
+    #[cold]
+    fn respond<L: Law>(&mut self, problem: &Problem<L>, bench: &Workbench) -> Result<()> {
+        let by_one = matches!(Acts::of(problem, &self.states), Acts::One(_));
+        let impedance = if self.groups == 0 {
+            None
+        } else if by_one && !problem.system.is_coupled() {
+            Some(Impedance::OneLaw(&bench.coupling))
+        } else {
+            let modes: Vec<usize> = self.members.iter().map(|m| m.mode).collect();
+            let coupled = Coupled::of_modes(problem, &self.states, &modes);
+            Some(Impedance::Dense(Box::new(coupled)))
+        };
+        let forcing = &problem.forcing;
+        let response = Response::new(forcing, self, impedance.as_ref(), problem.duration)?;
+        self.response = Some(Box::new(response));
+        Ok(())
     }
 
     /// One spring and damper: the secular equation, or the dense problem where it declines.
@@ -185,7 +215,8 @@ impl Spectrum {
 
     /// Numbers in its arrays, for the size of its memory.
     pub(crate) fn numbers(&self) -> usize {
-        self.vectors.numbers() + 4 * LANES * self.lambda.len() * (1 + self.views.len())
+        let response = self.response.as_ref().map_or(0, |r| r.numbers());
+        self.vectors.numbers() + 4 * LANES * self.lambda.len() * (1 + self.views.len()) + response
     }
 
     /// Makes room for the vectors of the coupled groups, `width` blocks of exponents.
@@ -221,7 +252,7 @@ impl Spectrum {
     }
 
     #[inline(always)]
-    fn left_velocity(&self, group: usize) -> &[ComplexBlock] {
+    pub(crate) fn left_velocity(&self, group: usize) -> &[ComplexBlock] {
         self.vectors.row(2 * self.groups + group)
     }
 
@@ -299,7 +330,7 @@ impl Spectrum {
         let damping = modal + added;
         self.singles.push(Single {
             subject: Subject::Combination,
-            motion: SingleMode::new(stiffness, damping, force, problem.duration),
+            motion: single_motion(problem, stiffness, damping, force),
             at: 0,
             modal_share: if damping > 0.0 { modal / damping } else { 0.0 },
             law: Some(law.law),
@@ -337,7 +368,7 @@ impl Spectrum {
             let force = forces[mode] - pushed[mode];
             self.singles.push(Single {
                 subject: Subject::Mode(mode),
-                motion: SingleMode::new(omega2[mode], damping[mode], force, problem.duration),
+                motion: single_motion(problem, omega2[mode], damping[mode], force),
                 at: 0,
                 modal_share: 1.0,
                 law: None,
@@ -345,13 +376,20 @@ impl Spectrum {
         }
     }
 
-    fn lay_out_exponents(&mut self) {
+    fn lay_out_exponents<L: Law>(&mut self, problem: &Problem<L>) {
         let mut at = self.coupled_width * LANES;
         for single in &mut self.singles {
             single.at = at;
             at += single.motion.exponents().1;
         }
+        self.forced_at = at;
+        let harmonics = problem.forcing.harmonics();
+        at += harmonics.len();
         self.lambda.resize(at.div_ceil(LANES), ComplexBlock::ZERO);
+        for (i, harmonic) in harmonics.iter().enumerate() {
+            let turn = Complex::new(0.0, harmonic.omega);
+            set_entry(&mut self.lambda, self.forced_at + i, turn);
+        }
         for single in &self.singles {
             let (exponents, count) = single.motion.exponents();
             for (i, lambda) in exponents.iter().enumerate().take(count) {
@@ -430,6 +468,23 @@ impl Spectrum {
             to[first..first + count].copy_from_slice(&Lanes::totals(sums)[..count]);
         }
     }
+}
+
+/// A motion by itself. One without stiffness under a load that takes longer than the run for a
+/// turn is followed by its Taylor series.
+#[inline(always)]
+fn single_motion<L: Law>(
+    problem: &Problem<L>,
+    omega2: f64,
+    damping: f64,
+    force: f64,
+) -> SingleMode {
+    let mut motion = SingleMode::new(omega2, damping, force, problem.duration);
+    let mut harmonics = problem.forcing.harmonics().iter();
+    if motion.regime == Regime::Free && harmonics.any(|h| is_slow(h.omega, problem.duration)) {
+        motion.regime = Regime::Slow;
+    }
+    motion
 }
 
 /// The largest of eight.

@@ -1,5 +1,6 @@
 //! How local coordinates see the motion of a phase.
 
+use super::response::Response;
 use super::rows::{ComplexBlock, set_entry};
 use super::spectrum::{Spectrum, Subject};
 use crate::number::{Complex, Instructions, Lanes, Number};
@@ -13,6 +14,10 @@ pub(crate) struct View {
     pub rest: f64,
     /// Weight of each single motion.
     pub singles: Vec<f64>,
+    /// Weight of each link of the response to loads that change in time.
+    pub links: Vec<f64>,
+    /// Weight of each of its resonances.
+    pub resonances: Vec<Complex<f64>>,
 }
 
 impl View {
@@ -52,6 +57,28 @@ impl View {
             for i in 0..single.motion.exponents().1 {
                 set_entry(&mut self.exponents, single.at + i, Complex::real(weight));
             }
+        }
+        self.links.clear();
+        self.resonances.clear();
+        if let Some(response) = &spectrum.response {
+            self.see_loads(response, row);
+        }
+    }
+
+    /// How a row sees what follows loads that change in time.
+    fn see_loads(&mut self, response: &Response, row: &[f64]) {
+        let seen = |shape: &[Complex<f64>]| {
+            (row.iter().zip(shape)).fold(Complex::zero(), |total, (r, z)| z.scale_add(*r, total))
+        };
+        for link in &response.links {
+            let seen = row.iter().zip(&link.row).map(|(r, a)| r * a).sum();
+            self.links.push(seen);
+        }
+        for (harmonic, shape) in response.shapes.iter().enumerate() {
+            set_entry(&mut self.exponents, response.at + harmonic, seen(shape));
+        }
+        for resonance in &response.resonances {
+            self.resonances.push(seen(&resonance.row));
         }
     }
 }

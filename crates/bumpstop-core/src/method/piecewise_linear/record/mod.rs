@@ -145,8 +145,8 @@ impl PhaseRecord {
     }
 }
 
-/// Is shown modal displacement, velocity and law states.
-pub(crate) type See<'a> = dyn FnMut(&[f64], &[f64], &[State]) + 'a;
+/// Is shown a time, modal displacement, velocity and law states.
+pub(crate) type See<'a> = dyn FnMut(f64, &[f64], &[f64], &[State]) + 'a;
 
 struct Visit<'a, 'b> {
     record: &'a PhaseRecord,
@@ -165,7 +165,7 @@ impl Vectorised for Visit<'_, '_> {
         for time in self.times {
             let phase = phases.list[self.record.phase_at(*time)];
             phases.motion::<I>(phase, time - phase.start, &mut work, &mut q, &mut v);
-            (self.see)(&q, &v, phases.states(phase));
+            (self.see)(*time, &q, &v, phases.states(phase));
         }
     }
 }

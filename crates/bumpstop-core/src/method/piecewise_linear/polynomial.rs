@@ -1,0 +1,179 @@
+//! The polynomial part of a signal.
+
+use crate::forcing::HIGHEST_DEGREE;
+
+/// A load of the highest degree moves a rigid body by two degrees more.
+pub(crate) const COEFFICIENTS: usize = HIGHEST_DEGREE + 3;
+
+/// `sum c_n t^n`, t since the start of the phase. Mostly of degree two at most.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Polynomial {
+    pub coefficients: [f64; COEFFICIENTS],
+    /// Whether any coefficient beyond the third may differ from zero.
+    is_long: bool,
+}
+
+impl Polynomial {
+    #[inline(always)]
+    pub(crate) fn constant(value: f64) -> Self {
+        let mut polynomial = Self::default();
+        polynomial.coefficients[0] = value;
+        polynomial
+    }
+
+    /// Adds `value t^power`.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, power: usize, value: f64) {
+        self.coefficients[power] += value;
+        self.is_long |= power > 2;
+    }
+
+    /// The coefficients that may differ from zero.
+    pub(crate) fn terms(&self) -> &[f64] {
+        &self.coefficients[..if self.is_long { COEFFICIENTS } else { 3 }]
+    }
+
+    /// Adds value, slope and curvature at t.
+    #[inline(always)]
+    pub(crate) fn add_to(&self, t: f64, values: &mut [f64; 3]) {
+        let c = &self.coefficients;
+        values[0] += c[0] + t * (c[1] + t * c[2]);
+        values[1] += c[1] + 2.0 * t * c[2];
+        values[2] += 2.0 * c[2];
+        if self.is_long {
+            self.add_long_part(t, values);
+        }
+    }
+
+    fn add_long_part(&self, t: f64, values: &mut [f64; 3]) {
+        let (mut value, mut slope, mut curvature) = (0.0, 0.0, 0.0);
+        for n in (3..COEFFICIENTS).rev() {
+            let (c, n) = (self.coefficients[n], n as f64);
+            value = value * t + c;
+            slope = slope * t + n * c;
+            curvature = curvature * t + n * (n - 1.0) * c;
+        }
+        values[0] += value * t * t * t;
+        values[1] += slope * t * t;
+        values[2] += curvature * t;
+    }
+
+    /// `sum |c_n| t^n`
+    #[inline(always)]
+    pub(crate) fn size(&self, t: f64) -> f64 {
+        let c = &self.coefficients;
+        let short = c[0].abs() + t * (c[1].abs() + t * c[2].abs());
+        if self.is_long {
+            let long = c[3..].iter().rev().fold(0.0, |size, c| size * t + c.abs());
+            return short + long * t * t * t;
+        }
+        short
+    }
+
+    /// Bound of the third derivative from 0 to t.
+    #[inline(always)]
+    pub(crate) fn third(&self, t: f64) -> f64 {
+        if !self.is_long {
+            return 0.0;
+        }
+        (3..COEFFICIENTS).rev().fold(0.0, |bound, n| {
+            let c = self.coefficients[n].abs();
+            let n = n as f64;
+            bound * t + n * (n - 1.0) * (n - 2.0) * c
+        })
+    }
+
+    pub(crate) fn derivative(&self) -> Self {
+        let mut rate = Self {
+            is_long: self.is_long,
+            ..Self::default()
+        };
+        for n in 1..COEFFICIENTS {
+            rate.coefficients[n - 1] = n as f64 * self.coefficients[n];
+        }
+        rate
+    }
+
+    /// Integral from 0 to t.
+    pub(crate) fn integral(&self, t: f64) -> f64 {
+        (0..COEFFICIENTS).rev().fold(0.0, |total, n| {
+            t * (total + self.coefficients[n] / (n + 1) as f64)
+        })
+    }
+
+    pub(crate) fn negate(&mut self) {
+        self.coefficients = self.coefficients.map(|c| -c);
+    }
+}
+
+/// The coefficient that `t^power` has in the derivative of the given order of a polynomial; a
+/// negative order is an integral from 0.
+#[inline(always)]
+pub(crate) fn of_derivative(coefficients: &[f64], order: i32, power: usize) -> f64 {
+    let Ok(from) = usize::try_from(power as i32 + order) else {
+        return 0.0;
+    };
+    let Some(c) = coefficients.get(from) else {
+        return 0.0;
+    };
+    let product = |low: usize, high: usize| (low + 1..=high).fold(1.0, |p, n| p * n as f64);
+    if order >= 0 {
+        c * product(power, from)
+    } else {
+        c / product(from, power)
+    }
+}
+
+/// The derivative of the given order of a polynomial at t.
+#[inline(always)]
+pub(crate) fn derivative_at(coefficients: &[f64], order: i32, t: f64) -> f64 {
+    let length = coefficients.len() as i32 - order;
+    (0..length.max(0) as usize).rev().fold(0.0, |value, power| {
+        value * t + of_derivative(coefficients, order, power)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_and_integrals_are_those_of_powers() {
+        let mut p = Polynomial::constant(2.0);
+        for (power, value) in [(1, -1.0), (2, 0.5), (3, 4.0), (7, -3.0)] {
+            p.add(power, value);
+        }
+        let t = 0.7f64;
+        let mut values = [0.0; 3];
+        p.add_to(t, &mut values);
+        let expected = [
+            2.0 - t + 0.5 * t * t + 4.0 * t.powi(3) - 3.0 * t.powi(7),
+            -1.0 + t + 12.0 * t * t - 21.0 * t.powi(6),
+            1.0 + 24.0 * t - 126.0 * t.powi(5),
+        ];
+        for (a, b) in values.iter().zip(expected) {
+            assert!((a - b).abs() < 1e-14 * b.abs());
+        }
+        let mut rate = [0.0; 3];
+        p.derivative().add_to(t, &mut rate);
+        assert!((rate[0] - expected[1]).abs() < 1e-13);
+        assert!((rate[1] - expected[2]).abs() < 1e-13);
+        let integral = 2.0 * t - 0.5 * t * t + t.powi(3) / 6.0 + t.powi(4) - 0.375 * t.powi(8);
+        assert!((p.integral(t) - integral).abs() < 1e-14);
+        assert!(p.third(t) >= (24.0 - 630.0 * t.powi(4)).abs());
+        for order in -2..=4 {
+            let mut of = p;
+            for _ in 0..order {
+                of = of.derivative();
+            }
+            let mut direct = [0.0; 3];
+            of.add_to(t, &mut direct);
+            if order >= 0 {
+                let found = derivative_at(&p.coefficients, order, t);
+                assert!((found - direct[0]).abs() < 1e-12, "{order}");
+            }
+        }
+        assert!((derivative_at(&p.coefficients, -1, t) - integral).abs() < 1e-14);
+        assert_eq!(of_derivative(&[6.0], -2, 2), 3.0);
+    }
+}
