@@ -182,7 +182,8 @@ def event_errors(
                 rows.append(stop.row)
     if not times:
         return np.zeros(0), np.zeros(0)
-    displacement, velocity = judge.motion(np.array(times))
-    reach = np.abs(displacement).max() * np.abs(rows).sum(axis=1)
+    displacement = judge.motion(np.linspace(0.0, horizon, SAMPLES + 1))[0]
+    reach = (np.abs(displacement).max() or 1.0) * np.abs(rows).sum(axis=1)
+    velocity = judge.motion(np.array(times))[1]
     speed = np.abs((velocity * rows).sum(axis=1))
-    return np.array(times), np.array(late) * speed / np.where(reach > 0, reach, 1.0)
+    return np.array(times), np.array(late) * speed / reach
