@@ -10,6 +10,7 @@ mod advance;
 mod coupled;
 mod dense;
 mod dissipation;
+mod enclosure;
 mod event;
 mod grouping;
 mod impedance;
@@ -29,6 +30,7 @@ mod spectrum;
 mod tables;
 mod view;
 
+pub use enclosure::Enclosure;
 pub use jet::{Jet, Verdict};
 pub use record::PhaseRecord;
 
