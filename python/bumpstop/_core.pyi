@@ -101,6 +101,12 @@ class History:
     def steps(self) -> int:
         """Certified cells of the exact method, or time steps."""
     @property
+    def motion_error(self) -> float | None:
+        """Bound at the laws, in m, of how far any phase is from the solution of its equations.
+
+        ``None`` for fixed steps, infinite where there is no bound.
+        """
+    @property
     def missed_penetration(self) -> float | None:
         """Deepest penetration that rounding could have hidden from the certificate, in m."""
     @property

@@ -102,6 +102,17 @@ class Response:
         return self.history.missed_penetration
 
     @property
+    def motion_error(self) -> float | None:
+        """Bound in m of the error that rounding leaves in the motion between two switches.
+
+        At every instant, where a law acts, the motion of the exact method is this close to
+        the solution of the equations of motion that starts where the last switch left it. The
+        bound comes from what the computed motion leaves of the equations (see the theory page
+        on the certificate), the same for any problem; None for methods without such a bound.
+        """
+        return self.history.motion_error
+
+    @property
     def event_count(self) -> int:
         """How many times a law switched."""
         return self.history.event_count

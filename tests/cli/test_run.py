@@ -81,6 +81,7 @@ def test_json(call: Output) -> None:
             "steps",
             "certified_steps",
             "missed_penetration",
+            "motion_error",
             "events",
             "impacts",
             "energy_residual",
@@ -93,6 +94,7 @@ def test_json(call: Output) -> None:
         assert (variant["method"], variant["passed"]) == ("symplectic_euler", True)
         assert (variant["steps"], variant["events"], variant["impacts"]) == (2000, 1, 1)
         assert (variant["certified_steps"], variant["missed_penetration"]) == (None, None)
+        assert variant["motion_error"] is None
         assert 0 < variant["solve_seconds"] < 1
         assert len(variant["references"]) == 12
     check = record["variants"][0]["references"][2]
@@ -131,8 +133,12 @@ def test_the_exact_method_says_what_it_has_proved(call: Output) -> None:
     for variant in json.loads(output)["variants"]:
         assert variant["certified_steps"] == variant["steps"] > 0
         assert 0.0 < variant["missed_penetration"] < 1e-14
+        assert 0.0 < variant["motion_error"] < 1e-12
     _, output, _ = call("run", str(SDNL32))
-    proved = r"  certified: no contact deeper than \d\.\de-1\d m can have been missed\n"
+    proved = (
+        r"  certified: no contact deeper than \d\.\de-1\d m missed, "
+        r"motion true to \d\.\de-1\d m between switches\n"
+    )
     assert len(re.findall(proved, output)) == 2
 
 

@@ -115,6 +115,7 @@ def test_the_exact_method_leaves_its_certificate(tmp_path: Path, thrown_beam: bs
     with xr.open_dataset(tmp_path / "exact.nc", engine="h5netcdf") as file:
         assert file.attrs["certified_steps"] == response.steps
         assert file.attrs["missed_penetration"] == response.missed_penetration
+        assert file.attrs["motion_error"] == response.motion_error
     assert response.missed_penetration is not None
     assert 0.0 < response.missed_penetration < 1e-14
 

@@ -118,6 +118,16 @@ impl<L: Law> History<L> {
         }
     }
 
+    /// A bound, in the laws' local coordinates, of how far the exact method's motion of any phase
+    /// is from the solution of its equations that starts where the phase before ends. `None` for
+    /// fixed steps.
+    pub fn motion_error(&self) -> Option<f64> {
+        match &self.record {
+            Record::Steps(_) => None,
+            Record::Phases(record) => Some(record.motion_error(&self.problem)),
+        }
+    }
+
     /// Shows modal displacement, velocity and law states at each time.
     fn visit(&self, times: &[f64], mut see: impl FnMut(f64, &[f64], &[f64], &[State])) {
         let modes = self.problem.system.modes();

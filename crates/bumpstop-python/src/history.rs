@@ -100,6 +100,11 @@ impl History {
         self.inner.missed_penetration()
     }
 
+    #[getter]
+    fn motion_error(&self) -> Option<f64> {
+        self.inner.motion_error()
+    }
+
     fn motion<'py>(
         &self,
         py: Python<'py>,

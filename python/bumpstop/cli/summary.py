@@ -73,8 +73,11 @@ def _how(numbers: dict[str, Any]) -> str:
 
 
 def _certificate(numbers: dict[str, Any]) -> str:
-    depth = numbers["missed_penetration"]
-    return f"certified: no contact deeper than {depth:.1e} m can have been missed"
+    depth, error = numbers["missed_penetration"], numbers["motion_error"]
+    return (
+        f"certified: no contact deeper than {depth:.1e} m missed, "
+        f"motion true to {error:.1e} m between switches"
+    )
 
 
 def _many(count: int, thing: str) -> str:

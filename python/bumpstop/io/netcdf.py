@@ -243,6 +243,7 @@ def _provenance(response: Response) -> dict[str, Any]:
         "steps": response.steps,
         "certified_steps": response.certified_steps,
         "missed_penetration": response.missed_penetration,
+        "motion_error": response.motion_error,
         "event_count": response.event_count,
         "energy_residual": response.energy_residual,
         "solve_seconds": response.solve_seconds,

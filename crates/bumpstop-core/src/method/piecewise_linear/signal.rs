@@ -177,6 +177,11 @@ impl Signal {
         }
     }
 
+    /// Coefficients of the polynomial part.
+    pub(crate) fn polynomial(&self) -> [f64; 3] {
+        self.polynomial
+    }
+
     /// Bound of the rounding of a value at time t.
     #[inline(always)]
     pub(crate) fn rounding(&self, t: f64) -> f64 {

@@ -2,6 +2,7 @@
 
 mod accounts;
 mod contact;
+mod defect;
 mod projection;
 
 use super::advance::Certificate;
@@ -13,6 +14,7 @@ use crate::number::{Instructions, Vectorised, dispatch};
 use crate::problem::Problem;
 use accounts::{Accounts, Ledgers, Settlement};
 use contact::ContactReader;
+use defect::Defect;
 use projection::Projection;
 use std::sync::OnceLock;
 
@@ -23,6 +25,7 @@ pub struct PhaseRecord {
     duration: f64,
     certificate: Certificate,
     accounts: OnceLock<Accounts>,
+    motion_error: OnceLock<f64>,
 }
 
 /// Position and velocity of all modes.
@@ -47,6 +50,7 @@ impl PhaseRecord {
             duration,
             certificate,
             accounts: OnceLock::new(),
+            motion_error: OnceLock::new(),
         }
     }
 
@@ -58,6 +62,13 @@ impl PhaseRecord {
     /// Bound of what the walk could have missed for rounding, in m.
     pub fn missed_penetration(&self) -> f64 {
         self.certificate.missed
+    }
+
+    /// Bound of how far the motion of any phase is, at the laws, from the solution of its
+    /// equations: see [`defect`]. Infinite where there is no bound.
+    pub(crate) fn motion_error<L: Law>(&self, problem: &Problem<L>) -> f64 {
+        let largest = || Defect::new(self, problem).largest();
+        *(self.motion_error).get_or_init(|| largest().unwrap_or(f64::INFINITY))
     }
 
     /// The number of the phase at a time: the last one that has started.

@@ -30,7 +30,7 @@ thread_local! {
 }
 
 /// The combination as the only local coordinate.
-const COORDINATE: Affine = Affine::coordinate(0);
+pub(super) const COORDINATE: Affine = Affine::coordinate(0);
 
 impl Vectorised for Projection<'_> {
     type Output = Vec<f64>;
