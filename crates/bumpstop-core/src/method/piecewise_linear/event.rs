@@ -6,10 +6,9 @@ use super::phase::{Phase, Phases};
 use super::rows::ComplexBlock;
 use super::signal::{Instant, Signal};
 use crate::history::Event;
-use crate::law::{Affine, Guard, Law, LocalMotion, State};
+use crate::law::{Affine, Guard, Law, LocalMotion};
 use crate::number::{Instructions, Plain};
 use crate::problem::Problem;
-use crate::system::Coupling;
 
 /// The guards of all laws in their present states.
 #[derive(Debug, Default)]
@@ -121,54 +120,6 @@ fn local_motion<L: Law>(
         let [v_rounding, a_rounding] = signal.rate_rounding(phases, phase);
         let rounding = [signal.rounding(t), v_rounding, a_rounding, jerk_rounding];
         motion.add(coordinate, [x, v, a, jerk], rounding);
-    }
-    motion
-}
-
-/// The laws' states at t = 0, from the motion that the structure would have without them.
-pub(crate) fn initial_states<L: Law>(problem: &Problem<L>) -> Vec<State> {
-    let mut states = Vec::with_capacity(problem.laws.len());
-    for law in &problem.laws {
-        states.push(law.initial_state(&free_motion(problem, law)));
-    }
-    states
-}
-
-/// The local motion at t = 0 without the laws.
-fn free_motion<L: Law>(problem: &Problem<L>, law: &L) -> LocalMotion {
-    let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
-    let [forces, force_rates] = problem.forcing.at_start();
-    let coupled = |mode: usize, position: &[f64], velocity: &[f64]| {
-        let part = |matrix: Option<&Coupling>, motion: &[f64]| {
-            matrix.map_or(0.0, |matrix| matrix.product(mode, motion))
-        };
-        part(problem.system.coupling(), velocity) + part(problem.system.circulatory(), position)
-    };
-    let acceleration = |i: usize| {
-        let (q, v) = (problem.displacement[i], problem.velocity[i]);
-        forces[i]
-            - damping[i] * v
-            - omega2[i] * q
-            - coupled(i, &problem.displacement, &problem.velocity)
-    };
-    let accelerations: Vec<f64> = if problem.system.is_coupled() {
-        (0..omega2.len()).map(acceleration).collect()
-    } else {
-        Vec::new()
-    };
-    let mut motion = LocalMotion::default();
-    for (coordinate, row) in law.rows().iter().enumerate() {
-        for i in 0..omega2.len() {
-            let (q, v) = (problem.displacement[i], problem.velocity[i]);
-            let a = acceleration(i);
-            let jerk = force_rates[i]
-                - damping[i] * a
-                - omega2[i] * v
-                - coupled(i, &problem.velocity, &accelerations);
-            let terms = [q, v, a, jerk].map(|derivative| row[i] * derivative);
-            let zero = terms.map(|term| 8.0 * f64::EPSILON * term.abs());
-            motion.add(coordinate, terms, zero);
-        }
     }
     motion
 }

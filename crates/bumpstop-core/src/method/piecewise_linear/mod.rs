@@ -14,6 +14,7 @@ mod enclosure;
 mod event;
 mod grouping;
 mod impedance;
+mod initial;
 mod jet;
 mod phase;
 mod polynomial;
@@ -124,7 +125,7 @@ impl<'a, L: Law> Run<'a, L> {
     #[inline(always)]
     fn advance<I: Instructions>(&mut self, observer: Observer<'_>) -> Result<()> {
         let problem = self.problem;
-        let mut states = event::initial_states(problem);
+        let mut states = initial::states(problem);
         let (mut q, mut v) = (problem.displacement.clone(), problem.velocity.clone());
         let mut time = 0.0;
         self.scratch.walk.start(problem.duration);
