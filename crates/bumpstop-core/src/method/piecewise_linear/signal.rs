@@ -178,8 +178,8 @@ impl Signal {
     }
 
     /// Coefficients of the polynomial part.
-    pub(crate) fn polynomial(&self) -> [f64; 3] {
-        self.polynomial
+    pub(crate) fn polynomial(&self) -> &[f64] {
+        self.polynomial.terms()
     }
 
     /// Bound of the rounding of a value at time t.

@@ -9,7 +9,7 @@
 use super::PhaseRecord;
 use super::projection::COORDINATE;
 use crate::error::{Error, Result};
-use crate::law::Law;
+use crate::law::{Law, Piece};
 use crate::method::piecewise_linear::coupled::Coupled;
 use crate::method::piecewise_linear::phase::{Phase, Workspace};
 use crate::method::piecewise_linear::rows::entry;
@@ -39,7 +39,11 @@ struct Equations {
     pumping: f64,
     /// How each mode sees the exponents.
     views: Vec<View>,
+    /// Modes with a closed form of their own, which leaves no residual.
+    solved: Vec<bool>,
     classes: Vec<Class>,
+    /// Residual of each motion that resonates with a load, and its growth rate.
+    resonances: Vec<(f64, f64)>,
 }
 
 /// Exponents that are equal, and the residual of each at unit amplitude.
@@ -98,13 +102,20 @@ impl<'a, L: Law> Defect<'a, L> {
             .self_adjoint_eigenvalues(Side::Lower)
             .map_err(|_| Error::Eigenvalues)?;
         let views = unit_views(spectrum, n);
+        let solved: Vec<bool> = views.iter().map(|v| is_solved(spectrum, v)).collect();
+        let residual = Residual {
+            coupled: &coupled,
+            solved: &solved,
+        };
         Ok(Equations {
-            classes: classes(spectrum, &coupled, &views),
+            classes: residual.classes(self.problem, spectrum, &views),
+            resonances: residual.resonances(spectrum),
             stiffness: (0..n).map(|k| eigen.S()[k]).collect(),
             directions: eigen.U().to_owned(),
             pumping: dampers.iter().fold(0.0f64, |most, c| most.max(-c)),
             coupled,
             views,
+            solved,
         })
     }
 
@@ -118,11 +129,78 @@ impl<'a, L: Law> Defect<'a, L> {
         }
         let norm = EnergyNorm::new(equations, length);
         let pushed = equations.exponential_residual(self.record, phase, length)
-            + equations.polynomial_residual(self.record, phase, length);
+            + self.polynomial_residual(equations, phase, length);
         let error = (norm.growth * length).exp() * (self.jump(&norm, number) + pushed);
         let laws = self.problem.laws.iter().flat_map(Law::rows);
         let reach = laws.fold(0.0f64, |most, row| most.max(norm.reach(row)));
         BOUNDS_ROUNDING * error * reach
+    }
+
+    /// Bound of the integral of the polynomial part's residual over a phase.
+    fn polynomial_residual(&self, equations: &Equations, phase: Phase, length: f64) -> f64 {
+        let n = equations.views.len();
+        let phases = &self.record.phases;
+        let mut motion: Vec<Vec<f64>> = Vec::with_capacity(n);
+        let mut signal = Signal::default();
+        for view in &equations.views {
+            let view = std::slice::from_ref(view);
+            signal.set::<Plain>(phases, phase, view, &COORDINATE, self.record.duration);
+            motion.push(signal.polynomial().to_vec());
+        }
+        let force = self.force_coefficients(phase);
+        let powers = (motion.iter().chain(&force)).fold(0, |most, c| most.max(c.len()));
+        let at = |rows: &[Vec<f64>], mode: usize, power: usize| {
+            rows[mode].get(power).copied().unwrap_or(0.0)
+        };
+        let mut total = 0.0;
+        for power in 0..powers {
+            let mut squares = 0.0;
+            for mode in (0..n).filter(|&mode| !equations.solved[mode]) {
+                let mut sum = Sum::default();
+                for other in 0..n {
+                    let rate = (power + 1) as f64 * at(&motion, other, power + 1);
+                    sum.add(equations.coupled.stiffness[(mode, other)] * at(&motion, other, power));
+                    sum.add(equations.coupled.damping[(mode, other)] * rate);
+                }
+                let second = ((power + 1) * (power + 2)) as f64;
+                sum.add(second * at(&motion, mode, power + 2));
+                sum.add(-at(&force, mode, power));
+                squares += (sum.value.abs() + rounding(2 * n) * sum.size).powi(2);
+            }
+            total += squares.sqrt() * length.powi(power as i32 + 1) / (power + 1) as f64;
+        }
+        total
+    }
+
+    /// Coefficients in time of the force on each mode: of laws and of loads, harmonics apart.
+    fn force_coefficients(&self, phase: Phase) -> Vec<Vec<f64>> {
+        let (problem, phases) = (self.problem, &self.record.phases);
+        let forcing = &problem.forcing;
+        let stride = forcing.stride().max(1);
+        let mut force: Vec<Vec<f64>> = (forcing.forces().iter())
+            .map(|constant| {
+                let mut of_mode = vec![0.0; stride];
+                of_mode[0] = *constant;
+                of_mode
+            })
+            .collect();
+        for (law, state) in problem.laws.iter().zip(phases.states(phase)) {
+            let piece = law.piece(*state).unwrap_or(Piece::FREE);
+            for (row, constant) in law.rows().iter().zip(piece.constant) {
+                for (of_mode, factor) in force.iter_mut().zip(row) {
+                    of_mode[0] += factor * constant;
+                }
+            }
+        }
+        let coefficients = phases.coefficients(phase).chunks(stride);
+        for (channel, coefficients) in forcing.channels().iter().zip(coefficients) {
+            for (of_mode, direction) in force.iter_mut().zip(&channel.direction) {
+                for (to, coefficient) in of_mode.iter_mut().zip(coefficients) {
+                    *to += direction * coefficient;
+                }
+            }
+        }
+        force
     }
 
     /// How far a phase starts from where the one before ends.
@@ -225,50 +303,9 @@ impl Equations {
             let size: f64 = residual.iter().map(|r| r.norm2()).sum::<f64>().sqrt();
             total += (size + noise) * lasting(class.exponent.re, length);
         }
-        total
-    }
-
-    /// The same of the polynomial part and the constant forces.
-    fn polynomial_residual(&self, record: &PhaseRecord, phase: Phase, length: f64) -> f64 {
-        let n = self.views.len();
-        let spectrum = &record.phases.spectra[phase.spectrum];
-        let mut position: Vec<[f64; 3]> = Vec::with_capacity(n);
-        let mut force: Vec<f64> = (0..n).map(|i| self.coupled.force[(i, 0)]).collect();
-        let mut signal = Signal::default();
-        for (view, force) in self.views.iter().zip(&mut force) {
-            let view = std::slice::from_ref(view);
-            signal.set::<Plain>(&record.phases, phase, view, &COORDINATE, record.duration);
-            position.push(signal.polynomial());
-            // Motions that are neither exponentials nor polynomials carry their forces.
-            for (single, weight) in spectrum.singles.iter().zip(&view[0].singles) {
-                if single.motion.is_special() {
-                    *force -= weight * single.motion.force;
-                }
-            }
-        }
-        let mut total = 0.0;
-        for power in 0..3 {
-            let mut squares = 0.0;
-            for i in 0..n {
-                let (mut residual, mut size) = (0.0, 0.0);
-                let mut add = |term: f64| {
-                    residual += term;
-                    size += term.abs();
-                };
-                for (k, p) in position.iter().enumerate() {
-                    add(self.coupled.stiffness[(i, k)] * p[power]);
-                    if power < 2 {
-                        let rate = (power + 1) as f64 * p[power + 1];
-                        add(self.coupled.damping[(i, k)] * rate);
-                    }
-                }
-                if power == 0 {
-                    add(2.0 * position[i][2]);
-                    add(-force[i]);
-                }
-                squares += (residual.abs() + rounding(2 * n) * size).powi(2);
-            }
-            total += squares.sqrt() * length.powi(power as i32 + 1) / (power + 1) as f64;
+        for (size, growth) in &self.resonances {
+            // What grows from rest under a load of size one has at most reached t by then.
+            total += size * length * lasting(*growth, length);
         }
         total
     }
@@ -302,54 +339,155 @@ fn unit_views(spectrum: &Spectrum, modes: usize) -> Vec<View> {
     views
 }
 
-/// The residuals `(lambda^2 + lambda C + K) psi` of all exponents, equal ones together: those of
-/// modes that are alike cancel only in their sum.
-fn classes(spectrum: &Spectrum, coupled: &Coupled, views: &[View]) -> Vec<Class> {
-    let mut classes: Vec<Class> = Vec::new();
-    for exponent in 0..spectrum.lambda.len() * LANES {
-        let lambda = entry(&spectrum.lambda, exponent);
-        let shape: Vec<Complex<f64>> = (views.iter())
-            .map(|view| entry(&view.exponents, exponent))
-            .collect();
-        if shape.iter().all(|psi| psi.norm2() == 0.0) {
-            continue;
-        }
-        let (residual, rounding) = residual_of(coupled, lambda, &shape);
-        let member = (exponent, residual);
-        match classes.iter_mut().find(|class| class.exponent == lambda) {
-            Some(class) => {
-                class.members.push(member);
-                class.roundings.push(rounding);
-            }
-            None => classes.push(Class {
-                exponent: lambda,
-                members: vec![member],
-                roundings: vec![rounding],
-            }),
-        }
-    }
-    classes
+/// Whether a mode's motion, or part of it, has a closed form of its own.
+fn is_solved(spectrum: &Spectrum, view: &View) -> bool {
+    let singles = spectrum.singles.iter().zip(&view.singles);
+    singles
+        .into_iter()
+        .any(|(single, weight)| *weight != 0.0 && single.motion.is_special())
 }
 
-/// The residual of one exponent at unit amplitude, and a bound of its own rounding.
-fn residual_of(
-    coupled: &Coupled,
-    lambda: Complex<f64>,
-    shape: &[Complex<f64>],
-) -> (Vec<Complex<f64>>, f64) {
-    let (square, modulus) = (lambda * lambda, lambda.norm());
-    let mut residual = Vec::with_capacity(shape.len());
-    let mut squares = 0.0;
-    for (i, own) in shape.iter().enumerate() {
-        let mut total = square * *own;
-        let mut size = modulus * modulus * own.norm();
-        for (k, psi) in shape.iter().enumerate() {
-            let (stiffness, damping) = (coupled.stiffness[(i, k)], coupled.damping[(i, k)]);
-            total += *psi * lambda.scale(damping).plus(stiffness);
-            size += (stiffness.abs() + modulus * damping.abs()) * psi.norm();
-        }
-        squares += (rounding(2 * shape.len()) * size).powi(2);
-        residual.push(total);
+/// A sum and the sizes of what was added.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    value: f64,
+    size: f64,
+}
+
+impl Sum {
+    fn add(&mut self, term: f64) {
+        self.value += term;
+        self.size += term.abs();
     }
-    (residual, squares.sqrt())
+}
+
+/// A residual at unit amplitude, and a bound of the rounding with which it is computed.
+struct Rounded {
+    vector: Vec<Complex<f64>>,
+    rounding: f64,
+}
+
+impl Rounded {
+    fn norm(&self) -> f64 {
+        self.rounding + (self.vector.iter()).map(|r| r.norm2()).sum::<f64>().sqrt()
+    }
+}
+
+/// Puts motions into the equations.
+struct Residual<'a> {
+    coupled: &'a Coupled,
+    solved: &'a [bool],
+}
+
+impl Residual<'_> {
+    /// The residuals of all exponents, equal ones together: those of modes that are alike cancel
+    /// only in their sum.
+    fn classes<L: Law>(
+        &self,
+        problem: &Problem<L>,
+        spectrum: &Spectrum,
+        views: &[View],
+    ) -> Vec<Class> {
+        let mut classes: Vec<Class> = Vec::new();
+        for exponent in 0..spectrum.lambda.len() * LANES {
+            let lambda = entry(&spectrum.lambda, exponent);
+            let shape: Vec<Complex<f64>> = (views.iter())
+                .map(|view| entry(&view.exponents, exponent))
+                .collect();
+            let harmonic = (spectrum.response.as_ref())
+                .and_then(|response| exponent.checked_sub(response.at))
+                .filter(|number| *number < problem.forcing.harmonics().len());
+            if harmonic.is_none() && shape.iter().all(|psi| psi.norm2() == 0.0) {
+                continue;
+            }
+            let mut residual = self.of_exponent(lambda, &shape);
+            if let Some(harmonic) = harmonic {
+                self.take_load(problem, spectrum, harmonic, &mut residual);
+            }
+            let Rounded { vector, rounding } = residual;
+            let class = match classes.iter_mut().find(|class| class.exponent == lambda) {
+                Some(class) => class,
+                None => {
+                    classes.push(Class {
+                        exponent: lambda,
+                        members: Vec::new(),
+                        roundings: Vec::new(),
+                    });
+                    classes.last_mut().expect("just pushed")
+                }
+            };
+            class.members.push((exponent, vector));
+            class.roundings.push(rounding);
+        }
+        classes
+    }
+
+    /// `(lambda^2 + lambda C + K) psi`
+    fn of_exponent(&self, lambda: Complex<f64>, shape: &[Complex<f64>]) -> Rounded {
+        let (square, modulus) = (lambda * lambda, lambda.norm());
+        let Coupled {
+            stiffness, damping, ..
+        } = self.coupled;
+        let mut vector = Vec::with_capacity(shape.len());
+        let mut squares = 0.0;
+        for (i, own) in shape.iter().enumerate() {
+            if self.solved[i] {
+                vector.push(Complex::zero());
+                continue;
+            }
+            let mut total = square * *own;
+            let mut size = modulus * modulus * own.norm();
+            for (k, psi) in shape.iter().enumerate() {
+                let (stiffness, damping) = (stiffness[(i, k)], damping[(i, k)]);
+                total += *psi * lambda.scale(damping).plus(stiffness);
+                size += (stiffness.abs() + modulus * damping.abs()) * psi.norm();
+            }
+            squares += (rounding(2 * shape.len()) * size).powi(2);
+            vector.push(total);
+        }
+        Rounded {
+            vector,
+            rounding: squares.sqrt(),
+        }
+    }
+
+    /// Takes a harmonic load, and what drives the motions that resonate with it, from the
+    /// residual of its exponent.
+    fn take_load<L: Law>(
+        &self,
+        problem: &Problem<L>,
+        spectrum: &Spectrum,
+        number: usize,
+        residual: &mut Rounded,
+    ) {
+        let harmonic = &problem.forcing.harmonics()[number];
+        let turn = Complex::new(0.0, harmonic.omega);
+        let (mut size, modes) = (0.0, residual.vector.len());
+        let resonances = spectrum.response.iter().flat_map(|r| &r.resonances);
+        let resonances: Vec<_> = resonances.filter(|r| r.harmonic == number).collect();
+        for i in (0..modes).filter(|&i| !self.solved[i]) {
+            let mut add = |term: Complex<f64>| {
+                residual.vector[i] += term;
+                size += term.norm();
+            };
+            add(harmonic.amplitude[i].scale(-1.0));
+            for resonance in &resonances {
+                add(resonance.row[i] * (resonance.lambda + turn));
+                for (k, row) in resonance.row.iter().enumerate() {
+                    add(row.scale(self.coupled.damping[(i, k)]));
+                }
+            }
+        }
+        residual.rounding += rounding(2 * modes) * size;
+    }
+
+    /// Residuals of what resonates with a load, each with its growth rate.
+    fn resonances(&self, spectrum: &Spectrum) -> Vec<(f64, f64)> {
+        let resonances = spectrum.response.iter().flat_map(|r| &r.resonances);
+        let each = resonances.map(|resonance| {
+            let residual = self.of_exponent(resonance.lambda, &resonance.row);
+            (residual.norm(), resonance.lambda.re)
+        });
+        each.collect()
+    }
 }
