@@ -7,11 +7,16 @@ cannot be told, the motion after it still can.
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from scipy.optimize import brentq
 
 from .one_mass import DIGITS, Curve, Mass, OneMass, Wall
 from .problem import CLOSED, RELEASED
 from .several.agreement import agreement
+from .several.precise import PreciseSeveral
 from .several.problem import SeveralStops, Stop
+from .several.random_problems import random_several
+from .several.scan import ScanSolution
+from .several.verdict import compare
 
 EXACT = 1e-11
 DEPTHS = [0.0, *(sign * depth for depth in (1e-9, 1e-12, 1e-15) for sign in (1, -1))]
@@ -142,3 +147,36 @@ def test_the_force_of_a_damped_wall_just_vanishes_below_it(depth: float) -> None
     if abs(depth) >= TELLABLE:
         assert [e.after for e in oracle.events] == [RELEASED, CLOSED] * (depth > 0)
         assert result.same_events
+
+
+def touched(seed: int, depth: float) -> SeveralStops:
+    """Return flexible modes among stops, and one stop more where their motion turns back."""
+    problem = random_several(seed)
+    problem = problem.but(duration=ScanSolution(problem, 1e3).end)
+    history = problem.solve()
+    row = np.random.default_rng(seed).normal(size=problem.omega2.size)
+    times = np.linspace(0.0, problem.duration, 4001)[1:-1]
+    path = history.project(row, times, 0)
+    near = int(np.argmin(path))
+    turn = brentq(
+        lambda time: float(history.project(row, np.array([time]), 1)[0]),
+        *(times[near - 1], times[near + 1]),
+        xtol=1e-16,
+    )
+    lowest = float(history.project(row, np.array([turn]), 0)[0])
+    gap = -lowest - depth * float(np.abs(path).max())
+    return problem.but(stops=(*problem.stops, Stop(row, gap, problem.stops[0].stiffness)))
+
+
+@pytest.mark.parametrize("depth", [0.0, 1e-9, -1e-9, 1e-12, -1e-12])
+@pytest.mark.parametrize("seed", [1, 16])
+def test_flexible_modes_just_reach_one_stop_more(seed: int, depth: float) -> None:
+    problem = touched(seed, depth)
+    judge = PreciseSeveral(problem, 100, 1e6)
+    last = len(problem.stops) - 1
+    assert any(event.stop == last for event in judge.events) == (depth > 0)
+    verdict = compare(problem, judge)
+    assert verdict.error < EXACT
+    assert verdict.energy < EXACT
+    if abs(depth) >= TELLABLE:
+        assert verdict.difference is None
