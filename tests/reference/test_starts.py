@@ -1,4 +1,4 @@
-"""Starts at which a state has to be decided: just touching, while others push or in balance."""
+"""Starts at which a state has to be decided: touching, without force, while another stop pushes."""
 
 import numpy as np
 import pytest
@@ -29,6 +29,14 @@ def test_touching_a_wall_while_another_one_pushes(
     check(Mass(walls, 1.0, displacement=-0.5, velocity=speed, force=force))
 
 
+@pytest.mark.parametrize("damping", [8.0, 32.0, 128.0])
+@pytest.mark.parametrize("force", [-1000.0, -100.0, -1.0])
+def test_below_a_damped_wall_without_force(damping: float, force: float) -> None:
+    # The push -k d - c d' is zero: its derivative decides.
+    wall = Wall(1, 0.0, 512.0, damping)
+    check(Mass((wall,), 0.5, displacement=-0.25, velocity=128.0 / damping, force=force))
+
+
 @pytest.mark.parametrize(("force", "moves"), [(100.0, False), (99.0, True), (101.0, True)])
 def test_touching_in_balance(force: float, moves: bool) -> None:
     # The stretched spring of the structure pulls with 100 onto the wall.
@@ -37,7 +45,7 @@ def test_touching_in_balance(force: float, moves: bool) -> None:
     assert (abs(mass.several().solve().motion(np.ones(1), 0)[0, 0] - 1.0) > 1e-3) == moves
 
 
-@pytest.mark.parametrize("count", [2, 16, 64])
+@pytest.mark.parametrize("count", [2, 64, 100, 400])
 def test_a_start_on_many_walls(count: int) -> None:
     walls = (Wall(1, 0.0, 1.0),) * count
     mass = Mass((Wall(1, 0.0, float(count)),), 5.0, velocity=-1.0, force=-3.0)

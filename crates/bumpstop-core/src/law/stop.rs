@@ -67,6 +67,11 @@ impl Stop {
         -(spring + T::of(self.damping) * self.obstacle.rate(velocity))
     }
 
+    /// The rate of [`Self::push`].
+    fn push_rate(&self, velocity: &Local<f64>, acceleration: &Local<f64>) -> f64 {
+        -(self.stiffness * velocity[0] + self.damping * acceleration[0])
+    }
+
     fn distance_guard(&self, name: &'static str, sign: f64) -> Guard {
         let mut function = Affine::coordinate(0);
         function.constant = self.obstacle.gap;
@@ -109,7 +114,14 @@ impl Law for Stop {
             Some((value, _)) if *value < 0.0 => {}
             _ => return Self::OPEN,
         }
-        if distance < -zero[0] && self.push(position, velocity) <= 0.0 {
+        // A force of zero below the wall is about to push or about to pull.
+        let push = self.push(position, velocity);
+        let pushes = if push.abs() > self.stiffness * zero[0] + self.damping * zero[1] {
+            push > 0.0
+        } else {
+            self.push_rate(velocity, acceleration) > 0.0
+        };
+        if distance < -zero[0] && !pushes {
             Self::RELEASED
         } else {
             Self::CLOSED

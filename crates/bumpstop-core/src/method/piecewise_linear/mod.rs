@@ -51,8 +51,8 @@ use std::sync::Arc;
 /// The method's name.
 pub const NAME: &str = "exact";
 
-/// Switches at one instant after which the run is given up.
-const MOST_SWITCHES_AT_ONCE: usize = 64;
+/// Switches of each law at one instant after which the run is given up.
+const MOST_SWITCHES_AT_ONCE: usize = 32;
 
 /// How often the observer is asked, in phases.
 const PHASES_BETWEEN_OBSERVATIONS: usize = 64;
@@ -165,7 +165,7 @@ impl<'a, L: Law> Run<'a, L> {
             } else {
                 at_once + 1
             };
-            if at_once > MOST_SWITCHES_AT_ONCE {
+            if at_once > MOST_SWITCHES_AT_ONCE * problem.laws.len() {
                 return Err(Error::EndlessSwitching { time });
             }
             self.phases
