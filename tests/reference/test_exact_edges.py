@@ -58,7 +58,7 @@ def test_a_graze_is_a_contact_only_if_it_touches(seed: int, depth: float) -> Non
 
 
 @pytest.mark.parametrize("depth", [0.0, 1e-9, -1e-9, 1e-12, -1e-12, 1e-15, -1e-15])
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_after_a_graze_that_rounding_may_hide_the_motion_is_right(seed: int, depth: float) -> None:
     problem, deepest, reach = flight(seed)
     problem = problem.but(gap=-deepest - depth * reach)

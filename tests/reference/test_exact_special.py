@@ -141,3 +141,20 @@ def test_a_stop_that_no_mode_moves_does_nothing(gap: float) -> None:
 def test_a_start_below_the_stop(gap: float, stop_damping: float, speed: float) -> None:
     velocity = np.array([speed, 0.7, 0.3])
     check(three_modes(gap=gap, stop_damping=stop_damping, velocity=velocity), state_error=1e-12)
+
+
+def test_hundreds_of_modes() -> None:
+    rng = np.random.default_rng(4)
+    number = np.arange(1, 201)
+    omega = 20 * np.pi * (number + rng.uniform(-0.1, 0.1, 200))
+    problem = StopProblem(
+        omega2=omega**2,
+        damping=0.02 * omega,
+        row=np.sqrt(2) * np.sin(0.37 * np.pi * number),
+        stiffness=1e6,
+        gap=0.001,
+        velocity=np.where(number <= 6, rng.normal(size=200), 0.0),
+        duration=0.008,
+    )
+    assert problem.solve().event_count >= 3
+    check(problem, state_error=1e-12)
