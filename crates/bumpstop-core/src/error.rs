@@ -143,9 +143,9 @@ pub enum Error {
         /// Instant, in s.
         time: f64,
     },
-    /// A constant force drives coupled rigid-body motions for ever.
+    /// A load that changes in time pushes coupled motions that nothing holds.
     #[error(
-        "a constant force drives a rigid-body motion that laws, damping or gyroscopic forces couple to others, and it drifts for ever: this is not supported; rigid-body modes on one law need the same damping"
+        "a load that changes in time drives a motion without stiffness that laws, damping or gyroscopic forces couple to others: this is not supported yet"
     )]
     NoRest,
     /// No spectrum of a phase passed its check.

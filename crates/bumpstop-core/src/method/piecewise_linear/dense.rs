@@ -1,9 +1,13 @@
-//! Spectra by the dense eigenproblem of the state matrix: any damping, any number of laws.
+//! Spectra by the dense eigenproblem of the state matrix: any damping, any number of laws, any
+//! exponents, near to each other or not.
 
+use super::cluster::{Cluster, complex};
 use super::coupled::{Coupled, coupled_modes};
+use super::principal::Principal;
 use super::rows::set_entry;
 use super::secular::Coupling;
 use super::spectrum::{Member, Spectrum};
+use super::splitting::{Part, Split, split};
 use crate::error::{Error, Result};
 use crate::law::{Law, State};
 use crate::number::{Complex, LANES};
@@ -30,76 +34,168 @@ pub(crate) fn couple<L: Law>(
     spectrum.combinations = modes.len();
     let damping = problem.system.damping();
     spectrum.group_damping = modes.iter().map(|&mode| damping[mode]).collect();
-    spectrum.at_rest = coupled.rest(&coupled.force)?;
-    coupled.solve_into(spectrum)
+    coupled.solve_into(spectrum, problem.duration)
 }
 
-/// Spectrum of one law whose modes are too heavily damped for the secular path.
-pub(crate) fn set_coupled(spectrum: &mut Spectrum, coupling: &Coupling) -> Result<()> {
-    Coupled::by_one(coupling).solve_into(spectrum)
+/// Spectrum of one law whose modes are too heavily damped for the secular path, or have no
+/// position at rest.
+pub(crate) fn set_coupled(
+    spectrum: &mut Spectrum,
+    coupling: &Coupling,
+    forces: &[f64],
+    constant: f64,
+    duration: f64,
+) -> Result<()> {
+    let mut coupled = Coupled::by_one(coupling);
+    coupled.force = Mat::from_fn(forces.len(), 1, |i, _| {
+        forces[i] + constant * coupling.phi[i]
+    });
+    coupled.solve_into(spectrum, duration)
 }
 
 /// What is left of a constant force at rest, relative to it, above which there is no rest.
 const UNBALANCED: f64 = 1e-9;
 
+/// Times the length of the run, the size below which an exponent is slow: a position at rest
+/// under a constant force would be so far away that digits were lost.
+const SLOW: f64 = 0.7;
+
 impl Coupled {
-    /// The position at rest under constant forces; that of no force where nothing pushes, even if
-    /// some motion is free.
+    /// Exponents, clusters, shapes, left vectors and the position at rest.
+    fn solve_into(&self, spectrum: &mut Spectrum, duration: f64) -> Result<()> {
+        let principal = Principal::new(self, duration)?;
+        let split = split(&principal.state, SLOW / duration)?;
+        let drives = self.force.norm_max() > 0.0;
+        let slow = split.parts.iter().find(|part| drives && part.is_slow);
+        let rest = match slow {
+            Some(part) => self.rest_beside(&principal, &split, part),
+            None => {
+                let rest = self.statics(&self.force);
+                (
+                    (0..rest.nrows()).map(|i| rest[(i, 0)]).collect(),
+                    Vec::new(),
+                )
+            }
+        };
+        (spectrum.at_rest, spectrum.rate_at_rest) = rest;
+        Layout::new(&split.parts, slow.map(|part| part.first))
+            .fill(spectrum, &principal, &split, duration);
+        Ok(())
+    }
+
+    /// The position at rest under constant forces.
+    ///
+    /// # Errors
+    /// [`Error::NoRest`] where some motion that they push has no stiffness.
     pub(crate) fn rest(&self, forces: &Mat<f64>) -> Result<Vec<f64>> {
-        let n = self.stiffness.nrows();
-        let size = forces.norm_max();
-        if size == 0.0 {
-            return Ok(vec![0.0; n]);
-        }
-        let rest = self.stiffness.full_piv_lu().solve(forces);
+        let rest = self.statics(forces);
         let lack = &self.stiffness * &rest - forces;
         // Written so that a lack which is not a number is one too large.
-        let balanced = (0..n).all(|i| lack[(i, 0)].abs() <= UNBALANCED * size);
+        let balanced = lack.norm_max() <= UNBALANCED * forces.norm_max();
         if !balanced {
             return Err(Error::NoRest);
         }
-        Ok((0..n).map(|i| rest[(i, 0)]).collect())
+        Ok((0..rest.nrows()).map(|i| rest[(i, 0)]).collect())
     }
 
-    /// Eigenvalues, shapes and left vectors. Velocities are scaled by a typical frequency so
-    /// that the state matrix is balanced; left vectors are rows of the inverse of the right ones.
-    fn solve_into(&self, spectrum: &mut Spectrum) -> Result<()> {
-        let n = self.stiffness.nrows();
-        let scale = (0..n)
-            .map(|i| self.stiffness[(i, i)].abs())
-            .fold(0.0f64, f64::max)
-            .sqrt()
-            .max(f64::MIN_POSITIVE);
-        let state = Mat::from_fn(2 * n, 2 * n, |r, c| match (r < n, c < n) {
-            (true, false) if r + n == c => scale,
-            (true, _) => 0.0,
-            (false, true) => -self.stiffness[(r - n, c)] / scale,
-            (false, false) => -self.damping[(r - n, c - n)],
-        });
-        let eigen = state.eigen().map_err(|_| Error::Eigenvalues)?;
-        let right = eigen.U();
-        let inverse = right
-            .partial_piv_lu()
-            .solve(Mat::<c64>::identity(2 * n, 2 * n));
-        let values = eigen.S().column_vector();
-        let kept: Vec<usize> = (0..2 * n).filter(|&j| values[j].im >= 0.0).collect();
-        spectrum.make_room(kept.len().div_ceil(LANES));
-        for (column, &j) in kept.iter().enumerate() {
-            let value = values[j];
-            let factor = if value.im > 0.0 { 2.0 } else { 1.0 };
-            set_entry(&mut spectrum.lambda, column, complex(value));
-            for i in 0..n {
-                let left = |c: usize| complex(inverse[(j, c)]).scale(factor);
-                set_entry(spectrum.shape_mut(i), column, complex(right[(i, j)]));
-                set_entry(spectrum.left_position_mut(i), column, left(i));
-                let velocity = left(i + n).scale(1.0 / scale);
-                set_entry(spectrum.left_velocity_mut(i), column, velocity);
-            }
+    fn statics(&self, forces: &Mat<f64>) -> Mat<f64> {
+        if forces.norm_max() == 0.0 {
+            return forces.clone();
         }
-        Ok(())
+        self.stiffness.full_piv_lu().solve(forces)
+    }
+
+    /// The constant part of the motion beside slow exponents, which the forces drive: with these
+    /// moved away from zero, `A + kappa X Y`, the state matrix has an inverse.
+    fn rest_beside(
+        &self,
+        principal: &Principal,
+        split: &Split,
+        slow: &Part,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let (n, count) = (principal.state.nrows(), slow.generator.nrows());
+        let right = split.right.subcols(slow.first, count);
+        let left = split.left.subrows(slow.first, count);
+        let force = Mat::from_fn(n, 1, |i, _| c64::new(principal.force[(i, 0)], 0.0));
+        let other = &force - right * (left * &force);
+        let away = principal.state.norm_max();
+        let slow_part = right * left;
+        let moved = Mat::from_fn(n, n, |r, c| {
+            principal.state[(r, c)] - away * slow_part[(r, c)].re
+        });
+        let right_side = Mat::from_fn(n, 1, |i, _| -other[(i, 0)].re);
+        let solution = moved.full_piv_lu().solve(&right_side);
+        let state = Mat::from_fn(n, 1, |i, _| c64::new(solution[(i, 0)], 0.0));
+        let column = |values: Mat<c64>| (0..n / 2).map(|i| values[(i, 0)].re).collect();
+        (
+            column(principal.positions(&state)),
+            column(principal.velocities(&state)),
+        )
     }
 }
 
-fn complex(z: c64) -> Complex<f64> {
-    Complex::new(z.re, z.im)
+/// Where the columns of each part go: exponents first, clusters behind.
+struct Layout<'a> {
+    parts: Vec<(&'a Part, usize)>,
+    driven: Option<usize>,
+    columns: usize,
+}
+
+impl<'a> Layout<'a> {
+    fn new(parts: &'a [Part], driven: Option<usize>) -> Self {
+        let is_driven = |part: &Part| driven == Some(part.first);
+        let is_cluster = |part: &Part| part.generator.nrows() > 1 || is_driven(part);
+        let mut ordered: Vec<&Part> = parts.iter().collect();
+        ordered.sort_by_key(|part| is_cluster(part));
+        let mut columns = 0;
+        let mut placed = Vec::with_capacity(parts.len());
+        for part in ordered {
+            placed.push((part, columns));
+            columns += part.generator.nrows() * if is_driven(part) { 2 } else { 1 };
+        }
+        Self {
+            parts: placed,
+            driven,
+            columns,
+        }
+    }
+
+    fn fill(&self, spectrum: &mut Spectrum, principal: &Principal, split: &Split, duration: f64) {
+        spectrum.make_room(self.columns.div_ceil(LANES));
+        let shapes = principal.positions(&split.right);
+        let (position, velocity) = principal.left(&split.left);
+        for &(part, at) in &self.parts {
+            let factor = if part.is_real { 1.0 } else { 2.0 };
+            let count = part.generator.nrows();
+            for c in 0..count {
+                let (column, from) = (at + c, part.first + c);
+                set_entry(&mut spectrum.lambda, column, mean(&part.generator));
+                for g in 0..spectrum.groups {
+                    let left = |rows: &Mat<c64>| complex(rows[(from, g)]).scale(factor);
+                    set_entry(spectrum.shape_mut(g), column, complex(shapes[(g, from)]));
+                    set_entry(spectrum.left_position_mut(g), column, left(&position));
+                    set_entry(spectrum.left_velocity_mut(g), column, left(&velocity));
+                }
+            }
+            if self.driven == Some(part.first) {
+                let rows = split.left.subrows(part.first, count);
+                let n = principal.force.nrows();
+                let force = Mat::from_fn(n, 1, |i, _| c64::new(principal.force[(i, 0)], 0.0));
+                let drive = rows * force;
+                let drive: Vec<_> = (0..count).map(|i| complex(drive[(i, 0)])).collect();
+                let cluster = Cluster::driven(at, &part.generator, &drive, duration);
+                spectrum.clusters.push(cluster);
+            } else if count > 1 {
+                spectrum
+                    .clusters
+                    .push(Cluster::new(at, &part.generator, duration));
+            }
+        }
+    }
+}
+
+fn mean(generator: &Mat<c64>) -> Complex<f64> {
+    let count = generator.nrows();
+    let trace: c64 = (0..count).map(|i| generator[(i, i)]).sum();
+    complex(trace).scale(1.0 / count as f64)
 }

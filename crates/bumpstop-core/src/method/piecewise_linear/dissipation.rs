@@ -9,6 +9,7 @@
 //! ```
 
 use super::phase::{Phase, Phases, Workspace};
+use super::quadrature::integral;
 use super::rows::{ComplexBlock, Rows, entry};
 use super::single_mode::Rates;
 use super::spectrum::{Single, Spectrum};
@@ -18,14 +19,88 @@ use crate::problem::Problem;
 use crate::system::Coupling as VelocityCoupling;
 use faer::{Mat, Side};
 
+/// Squares of coupled rates.
+#[derive(Debug, Clone)]
+enum Form {
+    /// Where every column is an exponent.
+    Closed(Primitive),
+    /// Where some belong to clusters: dampers as rows of the rates, each with its constant.
+    Quadrature(Vec<(Vec<ComplexBlock>, f64)>),
+}
+
+impl Form {
+    /// The form of `sum_g factor_g (Re sum_j row_gj r_j)^2`.
+    #[inline(always)]
+    fn new<I: Instructions>(
+        spectrum: &Spectrum,
+        rows: &[&[ComplexBlock]],
+        factors: &[f64],
+    ) -> Self {
+        if spectrum.clusters.is_empty() {
+            return Self::Closed(Primitive::new::<I>(spectrum, rows, factors));
+        }
+        let dampers = rows
+            .iter()
+            .zip(factors)
+            .filter(|(_, factor)| **factor != 0.0);
+        Self::Quadrature(
+            dampers
+                .map(|(row, factor)| (row.to_vec(), *factor))
+                .collect(),
+        )
+    }
+
+    /// Its integral from the start of a phase to `t` after it; the workspace holds the rates there.
+    #[inline(always)]
+    fn until<I: Instructions>(
+        &self,
+        phases: &Phases,
+        phase: Phase,
+        t: f64,
+        work: &Workspace,
+    ) -> f64 {
+        match self {
+            Self::Closed(form) => {
+                form.value::<I>(&work.rate) - form.value::<I>(&work.rate_at_start)
+            }
+            Self::Quadrature(dampers) => {
+                let pace = 2.0 * phases.spectra[phase.spectrum].pace();
+                let power = |work: &Workspace| -> f64 {
+                    (dampers.iter())
+                        .map(|(row, factor)| {
+                            let rate = real_product(row, &work.rate);
+                            factor * rate * rate
+                        })
+                        .sum()
+                };
+                let mut other = Workspace::default();
+                integral(t, pace, |t| {
+                    phases.turn::<I>(phase, t, &mut other);
+                    power(&other)
+                })
+            }
+        }
+    }
+}
+
+fn real_product(row: &[ComplexBlock], rates: &[ComplexBlock]) -> f64 {
+    let mut total = 0.0;
+    for (row, rate) in row.iter().zip(rates) {
+        for lane in 0..LANES {
+            total += row.re[lane] * rate.re[lane] - row.im[lane] * rate.im[lane];
+        }
+    }
+    total
+}
+
 /// A quadratic form of the coupled rates.
 #[derive(Debug, Clone)]
-struct Form {
+struct Primitive {
     with: Rows,
     with_conjugate: Rows,
 }
 
-impl Form {
+impl Primitive {
     /// The form of `sum_g factor_g (Re sum_j row_gj r_j)^2`.
     #[inline(always)]
     fn new<I: Instructions>(
@@ -117,7 +192,8 @@ impl Dissipation {
                 let piece = law.piece(*state).unwrap_or(Piece::FREE);
                 let factor = piece.damping[0][0];
                 (factor != 0.0 && spectrum.groups > 0).then(|| {
-                    Form::new::<I>(spectrum, &[&spectrum.views[view].exponents], &[factor])
+                    let row = spectrum.views[view].whole(&spectrum.clusters);
+                    Form::new::<I>(spectrum, &[&row], &[factor])
                 })
             })
             .collect();
@@ -144,19 +220,19 @@ impl Dissipation {
         phases.turn::<I>(phase, 0.0, work);
         work.rate_at_start.clone_from(&work.rate);
         phases.turn::<I>(phase, t, work);
+        if let Some(form) = &self.modal {
+            total.modal = form.until::<I>(phases, phase, t, work);
+        }
+        for (law, form) in total.laws.iter_mut().zip(&self.laws) {
+            if let Some(form) = form {
+                *law = form.until::<I>(phases, phase, t, work);
+            }
+        }
         let Workspace {
             rate,
             rate_at_start,
             ..
         } = work;
-        if let Some(form) = &self.modal {
-            total.modal = form.value::<I>(rate) - form.value::<I>(rate_at_start);
-        }
-        for (law, form) in total.laws.iter_mut().zip(&self.laws) {
-            if let Some(form) = form {
-                *law = form.value::<I>(rate) - form.value::<I>(rate_at_start);
-            }
-        }
         for (index, single) in spectrum.singles.iter().enumerate() {
             let kept = phases.kept(phase, index);
             let rates = [rates_of(single, rate_at_start), rates_of(single, rate)];

@@ -7,6 +7,8 @@
 //! The only approximation is rounding.
 
 mod advance;
+mod cluster;
+mod clustered;
 mod coupled;
 mod dense;
 mod dissipation;
@@ -18,6 +20,7 @@ mod initial;
 mod jet;
 mod phase;
 mod polynomial;
+mod principal;
 mod product;
 mod quadrature;
 mod record;
@@ -28,6 +31,7 @@ mod secular;
 mod signal;
 mod single_mode;
 mod spectrum;
+mod splitting;
 mod tables;
 mod view;
 

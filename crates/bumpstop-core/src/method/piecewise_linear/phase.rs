@@ -169,6 +169,9 @@ impl Phases {
         if which.groups > 0 {
             work.solve_amplitudes::<I>(which, start)?;
         }
+        for cluster in &which.clusters {
+            cluster.set_drive(&mut work.z);
+        }
         if !which.singles.is_empty() {
             subtract(which, q, &work.position, &mut work.own_position);
             subtract(which, v, &work.velocity, &mut work.own_velocity);
@@ -249,12 +252,19 @@ impl Phases {
         let spectrum = &self.spectra[phase.spectrum];
         let amplitudes = self.amplitudes(phase);
         work.fit(amplitudes.len());
+        let time = t;
         let t = Lanes::<I>::of(t);
         for (b, (lambda, amplitude)) in spectrum.lambda.iter().zip(amplitudes).enumerate() {
             let lambda = lambda.lanes::<I>();
             let z = amplitude.lanes() * lambda.scale(t).exp();
             work.z[b].put(z);
             work.rate[b].put(z * lambda);
+        }
+        for cluster in &spectrum.clusters {
+            let mut z = cluster.columns(amplitudes);
+            cluster.advance(time, &mut z);
+            cluster.put(&z, &mut work.z);
+            cluster.put(&cluster.rate(&z), &mut work.rate);
         }
     }
 
@@ -354,8 +364,9 @@ impl Workspace {
         self.given_velocity.resize(spectrum.groups, 0.0);
         for g in 0..spectrum.groups {
             let (rest, velocity) = (spectrum.at_rest[g], self.velocity[g]);
+            let rate = spectrum.rate_at_rest.get(g).copied().unwrap_or(0.0);
             self.lack_position.push(self.position[g] - rest);
-            self.lack_velocity.push(velocity);
+            self.lack_velocity.push(velocity - rate);
             size = size.max(self.position[g].abs()).max(rest.abs());
             size_rate = size_rate.max(velocity.abs());
         }
@@ -381,6 +392,10 @@ impl Workspace {
         for b in 0..spectrum.coupled_width {
             let rate = self.z[b].lanes::<I>() * spectrum.lambda[b].lanes();
             self.rate[b].put(rate);
+        }
+        for cluster in &spectrum.clusters {
+            let rate = cluster.rate(&cluster.columns(&self.z));
+            cluster.put(&rate, &mut self.rate);
         }
         spectrum.group_sums::<I>(&self.z, &mut self.given_position);
         spectrum.group_sums::<I>(&self.rate, &mut self.given_velocity);

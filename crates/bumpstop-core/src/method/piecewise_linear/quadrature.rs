@@ -22,7 +22,7 @@ pub(super) const LONGEST: f64 = 8.0;
 pub(super) fn panel<const N: usize>(
     start: f64,
     length: f64,
-    f: impl Fn(f64) -> [f64; N],
+    mut f: impl FnMut(f64) -> [f64; N],
 ) -> [f64; N] {
     let half = 0.5 * length;
     let middle = start + half;
@@ -34,6 +34,14 @@ pub(super) fn panel<const N: usize>(
         }
     }
     totals.map(|total| half * total)
+}
+
+/// Integral of `f` from 0 to t, in which no exponent has a modulus above `pace`.
+pub(super) fn integral(t: f64, pace: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+    let panels = (pace * t / LONGEST).ceil().max(1.0);
+    let length = t / panels;
+    let panels = (0..panels as usize).map(|i| panel(i as f64 * length, length, |t| [f(t)])[0]);
+    panels.sum()
 }
 
 #[cfg(test)]

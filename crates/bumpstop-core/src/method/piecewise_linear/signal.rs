@@ -2,6 +2,7 @@
 
 mod loads;
 
+use super::clustered::Clustered;
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
 use super::polynomial::Polynomial;
@@ -64,6 +65,7 @@ pub(crate) struct Signal {
     polynomial: Polynomial,
     specials: Vec<Special>,
     resonances: Vec<Resonant>,
+    clustered: Clustered,
     remaining: f64,
     /// `sum |b| |lambda|^n`
     totals: [f64; 3],
@@ -118,6 +120,8 @@ impl Signal {
         let sums = Lanes::totals([a, b, c, d, e, f, zero, zero]);
         self.totals = [sums[0], sums[1], sums[2]];
         self.at_start = [sums[3], sums[4], sums[5]];
+        self.clustered.set(&spectrum.clusters, views, function);
+        (self.clustered).add_sizes(phases, phase, &mut self.totals);
         for (coordinate, view) in views.iter().enumerate().take(COORDINATES) {
             if function.sees(coordinate) {
                 self.polynomial
@@ -220,6 +224,8 @@ impl Signal {
             }
         }
         rate.polynomial = self.polynomial.derivative();
+        rate.clustered = self.clustered.derivative(&spectrum.clusters);
+        (rate.clustered).add_sizes(phases, phase, &mut rate.totals);
         for special in &mut rate.specials {
             let single = special.single;
             let motion = &spectrum.singles[single].motion;
@@ -254,6 +260,7 @@ impl Signal {
         }
         self.polynomial.negate();
         self.at_start = self.at_start.map(|x| -x);
+        self.clustered.negate();
         for special in &mut self.specials {
             special.of_position = -special.of_position;
             special.of_velocity = -special.of_velocity;
@@ -285,6 +292,7 @@ impl Signal {
             total += special.of_velocity * (x - kept.x);
             total += special.of_load * kept.load(-1, t);
         }
+        total += self.clustered.integral(phases, phase, t);
         let resonances = self.resonances.iter();
         total + resonances.map(|resonant| resonant.integral(t)).sum::<f64>()
     }
@@ -301,7 +309,7 @@ impl Signal {
                 }
             }
         }
-        if self.specials.is_empty() && self.resonances.is_empty() {
+        if self.specials.is_empty() && self.resonances.is_empty() && self.clustered.is_empty() {
             return factor;
         }
         let paces = self.specials.iter().map(|special| {
@@ -309,11 +317,15 @@ impl Signal {
             motion.omega2.abs().sqrt().max(motion.damping)
         });
         let paces = paces.chain(self.resonances.iter().map(|r| r.lambda.norm().max(r.omega)));
-        factor.with_other(paces.fold(0.0, f64::max), move |t| {
-            let mut values = [0.0; 3];
-            self.add_specials(phases, phase, t, &mut values);
-            values[0]
-        })
+        factor.with_other(
+            paces.fold(self.clustered.pace(spectrum), f64::max),
+            move |t| {
+                let mut values = [0.0; 3];
+                self.add_specials(phases, phase, t, &mut values);
+                (self.clustered).add_values(phases, phase, t, &mut values);
+                values[0]
+            },
+        )
     }
 
     /// Makes the signal positive just after the start of the phase; tells whether it is so at
@@ -370,7 +382,7 @@ impl Signal {
     #[inline(always)]
     pub(crate) fn values_at_start(&self, phases: &Phases, phase: Phase) -> [f64; 3] {
         let mut values = self.at_start;
-        self.add_slow(phases, phase, 0.0, &mut values);
+        self.add_others(phases, phase, 0.0, &mut values);
         values
     }
 
@@ -392,7 +404,7 @@ impl Signal {
         let zero = Lanes::<I>::of(0.0);
         let totals = Lanes::totals([sums[0], sums[1], sums[2], zero, zero, zero, zero, zero]);
         let mut values = [totals[0], totals[1], totals[2]];
-        self.add_slow(phases, phase, at.time, &mut values);
+        self.add_others(phases, phase, at.time, &mut values);
         values
     }
 
@@ -421,8 +433,15 @@ impl Signal {
             sum = terms.of[order].lanes().add_real_product(e.lanes(), sum);
         }
         let mut values = [0.0; 3];
-        self.add_slow(phases, phase, at.time, &mut values);
+        self.add_others(phases, phase, at.time, &mut values);
         sum.total() + values[order]
+    }
+
+    /// All but the exponentials.
+    #[inline(always)]
+    fn add_others(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
+        self.add_slow(phases, phase, t, values);
+        self.clustered.add_values(phases, phase, t, values);
     }
 
     /// Polynomial and special parts.
@@ -499,14 +518,16 @@ impl Signal {
         let mut values = [totals[0], totals[1], totals[2]];
         self.add_slow(phases, phase, at.time, &mut values);
         let specials: f64 = self.specials.iter().map(|s| s.third).sum();
-        Jet {
+        let mut jet = Jet {
             value: values[0],
             slope: values[1],
             curvature: values[2],
             third: totals[3] + specials + self.third_of_loads(at.time + reach),
             rest: [totals[4], totals[5], totals[6]],
             rounding: self.rounding(at.time + reach),
-        }
+        };
+        (self.clustered).add_to_jet(phases, phase, at.time, reach, &mut jet);
+        jet
     }
 }
 

@@ -5,6 +5,7 @@
 //! move by themselves. Modes that are alike (same `omega2`, same damping) and pushed by one law
 //! only are split into the combination that it pushes and the rest that it does not see.
 
+use super::cluster::Cluster;
 use super::coupled::Coupled;
 use super::dense;
 use super::grouping::{Acting, Acts, group_alike, group_forces, static_groups};
@@ -14,7 +15,7 @@ use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
 use super::single_mode::{Regime, SingleMode};
 use super::view::View;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::law::{Law, State};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
@@ -64,6 +65,11 @@ pub(crate) struct Spectrum {
     vectors: Rows,
     /// Constant part of the groups under constant forces.
     pub at_rest: Vec<f64>,
+    /// Part of their velocities that is not of exponents; none where they rest. What drives
+    /// clusters gives it to the motion.
+    pub rate_at_rest: Vec<f64>,
+    /// Exponents that are too near to each other for eigenvectors of their own.
+    pub clusters: Vec<Cluster>,
     /// Damping of the groups by the structure alone.
     pub group_damping: Vec<f64>,
     pub members: Vec<Member>,
@@ -152,6 +158,8 @@ impl Spectrum {
         self.lambda.clear();
         self.moduli.clear();
         self.at_rest.clear();
+        self.rate_at_rest.clear();
+        self.clusters.clear();
         self.group_damping.clear();
         self.members.clear();
         self.singles.clear();
@@ -201,22 +209,30 @@ impl Spectrum {
         self.groups = self.combinations;
         self.group_damping.extend_from_slice(&coupling.damping);
         self.at_rest.reserve(self.groups);
-        if !static_groups(coupling, &bench.forces, law.constant, &mut self.at_rest) {
-            return Err(Error::NoRest);
-        }
-        if secular == Secular::Try {
+        let rests = static_groups(coupling, &bench.forces, law.constant, &mut self.at_rest);
+        let reach = problem.duration * problem.duration;
+        let is_far = is_far(&self.at_rest, coupling, &bench.forces, law.constant, reach);
+        if rests && !is_far && secular == Secular::Try {
             self.is_secular = self.solve_secular::<I>(coupling);
         }
         if !self.is_secular {
-            dense::set_coupled(self, coupling)?;
+            let duration = problem.duration;
+            dense::set_coupled(self, coupling, &bench.forces, law.constant, duration)?;
         }
         Ok(())
+    }
+
+    /// A modulus that no exponent exceeds, in 1/s.
+    pub(crate) fn pace(&self) -> f64 {
+        (self.clusters.iter()).fold(self.fastest, |pace, cluster| pace.max(cluster.norm()))
     }
 
     /// Numbers in its arrays, for the size of its memory.
     pub(crate) fn numbers(&self) -> usize {
         let response = self.response.as_ref().map_or(0, |r| r.numbers());
-        self.vectors.numbers() + 4 * LANES * self.lambda.len() * (1 + self.views.len()) + response
+        let clusters: usize = self.clusters.iter().map(Cluster::numbers).sum();
+        let weights = 4 * LANES * self.lambda.len() * (1 + self.views.len());
+        self.vectors.numbers() + weights + response + clusters
     }
 
     /// Makes room for the vectors of the coupled groups, `width` blocks of exponents.
@@ -486,6 +502,22 @@ fn single_motion<L: Law>(
     }
     motion
 }
+
+/// Whether a position at rest lies beyond what the forces can do in a run: the motion, measured
+/// from there, would lose its digits.
+#[inline(always)]
+fn is_far(rest: &[f64], coupling: &Coupling, forces: &[f64], constant: f64, reach: f64) -> bool {
+    let (mut farthest, mut largest) = (0.0f64, 0.0f64);
+    for (y, (force, phi)) in rest.iter().zip(forces.iter().zip(&coupling.phi)) {
+        farthest = farthest.max(y.abs());
+        largest = largest.max(force.abs() + (phi * constant).abs());
+    }
+    farthest > FAR * largest * reach
+}
+
+/// A mode of angular frequency w rests at `force/w^2`, here with w times the run's length at a
+/// half.
+const FAR: f64 = 4.0;
 
 /// The largest of eight.
 #[inline(always)]

@@ -1,15 +1,20 @@
 //! How local coordinates see the motion of a phase.
 
+use super::cluster::Cluster;
 use super::response::Response;
-use super::rows::{ComplexBlock, set_entry};
+use super::rows::{ComplexBlock, entry, set_entry};
 use super::spectrum::{Spectrum, Subject};
 use crate::number::{Complex, Instructions, Lanes, Number};
+use std::borrow::Cow;
 
 /// How one local coordinate sees the motion of a phase.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct View {
     /// Weight of each exponent's amplitude.
     pub exponents: Vec<ComplexBlock>,
+    /// Weight of each column of the clusters, one cluster behind the other; these count for
+    /// nothing among the exponents.
+    pub clusters: Vec<Complex<f64>>,
     /// Position at rest of the coupled groups.
     pub rest: f64,
     /// Weight of each single motion.
@@ -43,6 +48,13 @@ impl View {
                 total = spectrum.shape(g)[b].lanes().scale_add(weight, total);
             }
             self.exponents[b].put(total);
+        }
+        self.clusters.clear();
+        for cluster in &spectrum.clusters {
+            for column in cluster.at..cluster.at + cluster.size {
+                self.clusters.push(entry(&self.exponents, column));
+                set_entry(&mut self.exponents, column, Complex::zero());
+            }
         }
         for (position, weight) in spectrum.at_rest.iter().zip(combined.iter()) {
             self.rest += position * weight;
@@ -80,5 +92,17 @@ impl View {
         for resonance in &response.resonances {
             self.resonances.push(seen(&resonance.row));
         }
+    }
+
+    /// The weights of all columns, those of clusters in their places.
+    pub(crate) fn whole(&self, clusters: &[Cluster]) -> Cow<'_, [ComplexBlock]> {
+        let mut row = Cow::Borrowed(&self.exponents[..]);
+        let mut weights = self.clusters.iter();
+        for cluster in clusters {
+            for (column, weight) in (cluster.at..cluster.at + cluster.size).zip(&mut weights) {
+                set_entry(row.to_mut(), column, *weight);
+            }
+        }
+        row
     }
 }

@@ -25,7 +25,7 @@ use super::polynomial::derivative_at;
 use super::resonance::{Resonant, resonates};
 use super::rows::entry;
 use super::spectrum::Spectrum;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::forcing::{Forcing, Harmonic, Onset};
 use crate::number::{Complex, LANES};
 use parts::{ComplexParts, Parts};
@@ -179,9 +179,13 @@ impl Response {
         if !exponents.clone().any(|j| resonant(&j)) {
             return impedance.harmonic(omega, forces);
         }
+        if (spectrum.clusters.iter()).any(|c| resonant(&c.at)) {
+            return Err(Error::NoRest);
+        }
         let turn = Complex::new(0.0, omega);
         let mut shape = vec![Complex::zero(); spectrum.groups];
-        for j in exponents.filter(|j| !none(lambda(*j))) {
+        let alone = |j: &usize| !spectrum.clusters.iter().any(|cluster| cluster.holds(*j));
+        for j in exponents.filter(|j| !none(lambda(*j)) && alone(j)) {
             // Half of the real force belongs to exp(i omega t), half to its conjugate.
             let (mut with, mut against) = (Complex::zero(), Complex::zero());
             for (group, force) in forces.iter().enumerate() {
@@ -207,6 +211,9 @@ impl Response {
                     row: row.modes(spectrum, self.modes),
                 });
             }
+        }
+        for cluster in &spectrum.clusters {
+            cluster.add_harmonic(spectrum, turn, forces, &mut shape);
         }
         Ok(shape)
     }

@@ -1,0 +1,315 @@
+//! Exponents that have no eigenvectors of their own: a small block of the motion.
+//!
+//! Where exponents nearly coincide, their eigenvectors are nearly parallel and the amplitudes
+//! along them lose their digits; where they do coincide there may be fewer eigenvectors than
+//! exponents (critical damping, the double zero of a rigid motion). What is well determined is the
+//! subspace that they span together, on which the motion is `z' = B z`, `z(t) = exp(B t) z(0)`
+//! (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 7.6).
+//!
+//! `exp(B t)` is `exp(mean t)` times the exponential of what is left: Taylor's series over a
+//! short time, and the exponentials over that time's doublings, which are squared once
+//! (N. J. Higham, Functions of Matrices, chapter 10).
+//!
+//! A constant force on slow exponents has no position at rest to be measured from. The block is
+//! then *driven*: it is bordered by columns that stay constant, `z' = B z + g f`.
+
+use super::rows::{ComplexBlock, entry, set_entry};
+use super::spectrum::Spectrum;
+use crate::number::Complex;
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+
+/// The most columns of a block.
+pub(crate) const MOST: usize = 32;
+
+/// Room for the columns of a block.
+pub(crate) type Columns = [Complex<f64>; MOST];
+
+/// No motion.
+pub(crate) const NOTHING: Columns = [Complex { re: 0.0, im: 0.0 }; MOST];
+
+/// Norm of the block times the length of the shortest doubling.
+const SHORT: f64 = 0.5;
+
+/// Terms of Taylor's series: `SHORT^16/16!` is far below rounding.
+const TAYLOR_TERMS: usize = 16;
+
+/// Most doublings: what is longer is beyond the digits of a time.
+const MOST_DOUBLINGS: usize = 52;
+
+/// A block of columns among the exponents of a spectrum.
+#[derive(Debug, Clone)]
+pub(crate) struct Cluster {
+    /// Its first column.
+    pub at: usize,
+    /// Its number of columns.
+    pub size: usize,
+    /// What the last columns hold, from the start of a phase to its end.
+    drive: Vec<Complex<f64>>,
+    generator: Vec<Complex<f64>>,
+    /// The mean exponent, and the generator without it.
+    mean: Complex<f64>,
+    spread: Vec<Complex<f64>>,
+    /// `exp(spread t)` for the shortest time and its doublings.
+    doublings: Vec<Vec<Complex<f64>>>,
+    shortest: f64,
+    norm: f64,
+    growth: f64,
+}
+
+impl Cluster {
+    /// The block of a square generator, whose columns start at `at`, for times up to the duration.
+    pub(crate) fn new(at: usize, generator: &Mat<c64>, duration: f64) -> Self {
+        let size = generator.nrows();
+        let entries = |i: usize| complex(generator[(i / size, i % size)]);
+        Self::of_entries(at, size, (0..size * size).map(entries).collect(), duration)
+    }
+
+    /// The same, driven by constant `f`: bordered by as many columns, which hold it in a unit that
+    /// makes them about as large as the block.
+    pub(crate) fn driven(at: usize, own: &Mat<c64>, f: &[Complex<f64>], duration: f64) -> Self {
+        let count = own.nrows();
+        let size = 2 * count;
+        let unit = own.norm_l2().max(1.0 / duration);
+        let mut generator = vec![Complex::zero(); size * size];
+        for row in 0..count {
+            for column in 0..count {
+                generator[row * size + column] = complex(own[(row, column)]);
+            }
+            generator[row * size + count + row] = Complex::real(unit);
+        }
+        Self {
+            drive: f.iter().map(|f| f.scale(1.0 / unit)).collect(),
+            ..Self::of_entries(at, size, generator, duration)
+        }
+    }
+
+    fn of_entries(at: usize, size: usize, generator: Vec<Complex<f64>>, duration: f64) -> Self {
+        let mut trace = Complex::zero();
+        for i in 0..size {
+            trace += generator[i * size + i];
+        }
+        let mean = trace.scale(1.0 / size as f64);
+        let mut spread = generator.clone();
+        for i in 0..size {
+            spread[i * size + i] = spread[i * size + i] - mean;
+        }
+        let (doublings, shortest) = doublings(&spread, size, duration);
+        Self {
+            at,
+            size,
+            drive: Vec::new(),
+            mean,
+            doublings,
+            shortest,
+            norm: norm(&generator),
+            growth: growth(&generator, size),
+            generator,
+            spread,
+        }
+    }
+
+    /// `exp(B t) z` in place.
+    pub(crate) fn advance(&self, t: f64, z: &mut Columns) {
+        let steps = (t / self.shortest).floor();
+        let rest = if steps > 0.0 {
+            t - steps * self.shortest
+        } else {
+            t
+        };
+        taylor(&self.spread, self.size, rest, z);
+        let mut bits = steps as u64;
+        for doubling in &self.doublings {
+            if bits & 1 == 1 {
+                *z = applied(doubling, self.size, z);
+            }
+            bits >>= 1;
+        }
+        let turn = self.mean.scale(t).exp();
+        for z in &mut z[..self.size] {
+            *z = *z * turn;
+        }
+    }
+
+    /// Its columns of a row of all exponents.
+    pub(crate) fn columns(&self, row: &[ComplexBlock]) -> Columns {
+        let mut columns = NOTHING;
+        for (i, column) in columns.iter_mut().enumerate().take(self.size) {
+            *column = entry(row, self.at + i);
+        }
+        columns
+    }
+
+    /// Puts its columns back.
+    pub(crate) fn put(&self, columns: &Columns, row: &mut [ComplexBlock]) {
+        for (i, column) in columns.iter().enumerate().take(self.size) {
+            set_entry(row, self.at + i, *column);
+        }
+    }
+
+    /// Sets the columns that drive it.
+    pub(crate) fn set_drive(&self, row: &mut [ComplexBlock]) {
+        let first = self.at + self.size - self.drive.len();
+        for (i, drive) in self.drive.iter().enumerate() {
+            set_entry(row, first + i, *drive);
+        }
+    }
+
+    /// `B z`, what drives it included.
+    pub(crate) fn rate(&self, z: &Columns) -> Columns {
+        applied(&self.generator, self.size, z)
+    }
+
+    /// `row B`
+    pub(crate) fn row_rate(&self, row: &[Complex<f64>], to: &mut [Complex<f64>]) {
+        for (column, to) in to.iter_mut().enumerate() {
+            let mut total = Complex::zero();
+            for (factor, entries) in row.iter().zip(self.generator.chunks(self.size)) {
+                total = factor.mul_add(entries[column], total);
+            }
+            *to = total;
+        }
+    }
+
+    /// A bound of `|B z| / |z|`.
+    pub(crate) fn norm(&self) -> f64 {
+        self.norm
+    }
+
+    /// A bound of the rate at which `|z|` can grow, `|z(t)| <= exp(growth t) |z(0)|`.
+    pub(crate) fn growth(&self) -> f64 {
+        self.growth
+    }
+
+    /// Whether a column is one of its.
+    pub(crate) fn holds(&self, column: usize) -> bool {
+        (self.at..self.at + self.size).contains(&column)
+    }
+
+    /// Adds what the groups do under forces on them that go with `exp(turn t)`, half of each with
+    /// its conjugate: `X (turn - B)^-1 Y p/2`, and the same of the conjugate block.
+    pub(crate) fn add_harmonic(
+        &self,
+        spectrum: &Spectrum,
+        turn: Complex<f64>,
+        forces: &[Complex<f64>],
+        to: &mut [Complex<f64>],
+    ) {
+        let count = self.size - self.drive.len();
+        for flip in [|z: Complex<f64>| z, Complex::conj] {
+            let resolvent = Mat::from_fn(count, count, |r, c| {
+                let own = if r == c { turn } else { Complex::zero() };
+                let z = own - flip(self.generator[r * self.size + c]);
+                c64::new(z.re, z.im)
+            });
+            let push = Mat::from_fn(count, 1, |j, _| {
+                let mut total = Complex::zero();
+                for (group, force) in forces.iter().enumerate() {
+                    let left = flip(entry(spectrum.left_velocity(group), self.at + j));
+                    total += left.scale(0.5) * *force;
+                }
+                c64::new(total.re, total.im)
+            });
+            let moved = resolvent.full_piv_lu().solve(&push);
+            for (group, to) in to.iter_mut().enumerate() {
+                for j in 0..count {
+                    let shape = flip(entry(spectrum.shape(group), self.at + j));
+                    *to += shape * complex(moved[(j, 0)]);
+                }
+            }
+        }
+    }
+
+    /// Numbers that it keeps.
+    pub(crate) fn numbers(&self) -> usize {
+        2 * self.size * self.size * (2 + self.doublings.len())
+    }
+}
+
+/// `exp(spread t)` for a time short enough for Taylor's series and its doublings up to the
+/// duration, and that time; none where the whole duration is short enough.
+fn doublings(spread: &[Complex<f64>], size: usize, duration: f64) -> (Vec<Vec<Complex<f64>>>, f64) {
+    let norm = norm(spread);
+    let mut shortest = duration;
+    let mut count = 0;
+    while norm * shortest > SHORT && count < MOST_DOUBLINGS {
+        shortest *= 0.5;
+        count += 1;
+    }
+    if count == 0 {
+        return (Vec::new(), f64::INFINITY);
+    }
+    let mut doubling = vec![Complex::zero(); size * size];
+    for column in 0..size {
+        let mut z = NOTHING;
+        z[column] = Complex::real(1.0);
+        taylor(spread, size, shortest, &mut z);
+        for (row, z) in z.iter().enumerate().take(size) {
+            doubling[row * size + column] = *z;
+        }
+    }
+    let mut doublings = Vec::with_capacity(count + 1);
+    while doublings.len() <= count {
+        let next = product(&doubling, &doubling, size);
+        doublings.push(std::mem::replace(&mut doubling, next));
+    }
+    (doublings, shortest)
+}
+
+/// `exp(spread t) z` for a short time, by Taylor's series.
+fn taylor(spread: &[Complex<f64>], size: usize, t: f64, z: &mut Columns) {
+    let mut term = *z;
+    for order in 1..=TAYLOR_TERMS {
+        term = applied(spread, size, &term);
+        for (z, term) in z.iter_mut().zip(&mut term).take(size) {
+            *term = term.scale(t / order as f64);
+            *z += *term;
+        }
+    }
+}
+
+fn applied(matrix: &[Complex<f64>], size: usize, z: &Columns) -> Columns {
+    let mut result = NOTHING;
+    for (result, row) in result.iter_mut().zip(matrix.chunks(size)) {
+        for (factor, z) in row.iter().zip(z) {
+            *result = factor.mul_add(*z, *result);
+        }
+    }
+    result
+}
+
+fn product(a: &[Complex<f64>], b: &[Complex<f64>], size: usize) -> Vec<Complex<f64>> {
+    let mut result = Vec::with_capacity(size * size);
+    for row in a.chunks(size) {
+        for column in 0..size {
+            let mut total = Complex::zero();
+            for (factor, entries) in row.iter().zip(b.chunks(size)) {
+                total = factor.mul_add(entries[column], total);
+            }
+            result.push(total);
+        }
+    }
+    result
+}
+
+/// Frobenius' norm, a bound of the Euclidean one.
+fn norm(matrix: &[Complex<f64>]) -> f64 {
+    matrix.iter().map(|x| x.norm2()).sum::<f64>().sqrt()
+}
+
+/// A bound of the logarithmic norm: Gershgorin's circles of the Hermitian part.
+fn growth(matrix: &[Complex<f64>], size: usize) -> f64 {
+    let mut largest = f64::NEG_INFINITY;
+    for i in 0..size {
+        let mut bound = matrix[i * size + i].re;
+        for j in (0..size).filter(|&j| j != i) {
+            bound += 0.5 * (matrix[i * size + j] + matrix[j * size + i].conj()).norm();
+        }
+        largest = largest.max(bound);
+    }
+    largest
+}
+
+pub(crate) fn complex(z: c64) -> Complex<f64> {
+    Complex::new(z.re, z.im)
+}
