@@ -59,9 +59,10 @@ ENERGIES = {
     "dissipated_damping": Quantity("J", "energy dissipated by modal damping"),
     "dissipated_stops": Quantity("J", "energy dissipated by the stops"),
     "load_work": Quantity("J", "work of the loads"),
+    "circulatory_work": Quantity("J", "work of circulatory forces"),
     "total": Quantity("J", "kinetic, elastic, stored and dissipated energy together"),
     "total_initial": Quantity("J", "kinetic, elastic and stored energy at t = 0"),
-    "residual": Quantity("J", "total less its initial value and the work of the loads"),
+    "residual": Quantity("J", "total less its initial value and the work put in"),
 }
 """Terms of the energy ledger, functions of time."""
 

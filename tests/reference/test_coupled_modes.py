@@ -1,4 +1,4 @@
-"""Modes that dampers and gyroscopic forces couple, against the physical equations of motion."""
+"""Modes that dampers, gyroscopic and circulatory forces couple, against the physical equations."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
@@ -67,8 +68,13 @@ class Motion:
         return after
 
 
-def motion(velocity_matrix: Array, stop: float = 0.0, force: float = 0.0) -> Motion:
-    stiffness = STIFFNESS.copy()
+def motion(
+    velocity_matrix: Array,
+    stop: float = 0.0,
+    force: float = 0.0,
+    circulatory: Array | None = None,
+) -> Motion:
+    stiffness = STIFFNESS.copy() if circulatory is None else STIFFNESS + circulatory
     load = np.array([0.0, 0.0, force])
     stiffness[2, 2] += stop
     load[2] -= stop * GAP  # the stop pushes by -k (u + gap) along +x
@@ -182,8 +188,38 @@ def test_free_rotor_turns_on_its_own_circle() -> None:
     assert response.energy_residual < 1e-11
 
 
-def test_fixed_steps_and_circulatory_forces_are_refused() -> None:
-    with pytest.raises(bs.InputError, match="method: does not take modes that damping"):
-        bs.simulate(problem(basis(damping=DAMPER)), method="central_difference", dt=1e-5)
-    with pytest.raises(bs.InputError, match=r"^matrices\.circulatory: .* makes circulatory forces"):
-        bs.simulate(problem(basis(circulatory=SKEW)))
+CIRCULATORY = np.array([[0.0, 900.0, 0.0], [-900.0, 0.0, 300.0], [0.0, -300.0, 0.0]])
+
+
+def test_circulatory_forces_and_their_work() -> None:
+    of = basis(damping=DAMPER, circulatory=CIRCULATORY)
+    stop = bs.Stop("wall", node="R", normal=(1, 0, 0), gap=GAP, stiffness=STOP_STIFFNESS)
+    response = bs.simulate(problem(of, laws=[stop]))
+    flight = motion(DAMPER, circulatory=CIRCULATORY)
+    contact = motion(DAMPER, stop=STOP_STIFFNESS, circulatory=CIRCULATORY)
+    exact = with_stop(flight, contact)
+    times = np.linspace(0.0, DURATION, 2001)
+    wanted = np.array([exact(time) for time in times])
+    found = response.at(times).displacement("R", "dx")
+    np.testing.assert_allclose(found, wanted[:, 2], rtol=0, atol=1e-9 * np.abs(wanted[:, 2]).max())
+    power = -np.einsum("ti,ij,tj->t", wanted[:, 3:], CIRCULATORY, wanted[:, :3])
+    work = CubicSpline(times, power).integrate(0.0, DURATION)
+    energy = response.energy
+    assert float(energy["circulatory_work"][-1]) == pytest.approx(float(work), rel=1e-4)
+    assert abs(float(work)) > 1e-4 * float(energy["total_initial"][0])
+    assert response.energy_residual < 1e-12
+
+
+def test_a_growing_motion_is_paid_for_by_circulatory_forces() -> None:
+    response = bs.simulate(problem(basis(circulatory=20.0 * CIRCULATORY)))
+    energy = response.energy
+    assert float(energy["total"][-1]) > 2.0 * float(energy["total"][0])
+    given = energy["total_initial"] + energy["circulatory_work"]
+    np.testing.assert_allclose(energy["total"], given, rtol=1e-11)
+    assert response.energy_residual < 1e-12
+
+
+def test_fixed_steps_are_refused() -> None:
+    for of in (basis(damping=DAMPER), basis(circulatory=SKEW)):
+        with pytest.raises(bs.InputError, match="method: does not take modes that damping"):
+            bs.simulate(problem(of), method="central_difference", dt=1e-5)

@@ -19,6 +19,8 @@ pub struct Ledger {
     pub law_dissipated: Vec<f64>,
     /// Work of the loads since t = 0.
     pub load_work: f64,
+    /// Work of the forces of a circulatory matrix since t = 0.
+    pub circulatory_work: f64,
 }
 
 impl Ledger {
@@ -31,6 +33,7 @@ impl Ledger {
     pub fn balance(&self) -> f64 {
         self.held() + self.modal_dissipation + self.law_dissipated.iter().sum::<f64>()
             - self.load_work
+            - self.circulatory_work
     }
 
     /// Size of the largest term, the scale of the residual.
@@ -42,6 +45,7 @@ impl Ledger {
             self.elastic,
             self.modal_dissipation,
             self.load_work,
+            self.circulatory_work,
         ]
         .iter()
         .fold(laws, |m, e| m.max(e.abs()))

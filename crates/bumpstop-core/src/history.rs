@@ -310,6 +310,7 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
             law_dissipated: vec![0.0; problem.laws.len()],
             load_work: problem.forcing.work(record.displacement(0), q),
             modal_dissipation: 0.0,
+            circulatory_work: 0.0,
         };
         if let (Some(previous), Some(last)) = (&before, ledgers.last()) {
             let half = 0.5 * record.dt;
@@ -392,5 +393,6 @@ fn interpolate(ledgers: &[Ledger], position: f64) -> Ledger {
         modal_dissipation: mix(a.modal_dissipation, b.modal_dissipation),
         law_dissipated: each(&a.law_dissipated, &b.law_dissipated),
         load_work: mix(a.load_work, b.load_work),
+        circulatory_work: mix(a.circulatory_work, b.circulatory_work),
     }
 }

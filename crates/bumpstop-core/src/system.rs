@@ -50,6 +50,11 @@ impl Coupling {
         Ok(couples.then_some(Self { rows }))
     }
 
+    /// Number of its rows.
+    pub fn modes(&self) -> usize {
+        self.rows.len()
+    }
+
     /// Whether a mode has a part in it.
     pub fn involves(&self, mode: usize) -> bool {
         (self.rows.iter()).any(|row| row[mode] != 0.0) || self.rows[mode].iter().any(|x| *x != 0.0)

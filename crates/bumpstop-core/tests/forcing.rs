@@ -204,6 +204,8 @@ fn check(case: &Case, tolerance: f64) -> Result<(), TestCaseError> {
             }
         }
     }
+    let residual = history.energy_residual();
+    prop_assert!(residual < tolerance, "energy residual {residual:e}");
     Ok(())
 }
 

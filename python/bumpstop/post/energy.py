@@ -32,7 +32,8 @@ def ledger(response: Response, times: FloatArray) -> Ledger:
 
     The core integrates each term from its own power; this only adds them up:
     ``total = kinetic + elastic + stored + dissipated_damping + dissipated_stops``, which
-    without rounding equals ``total_initial + load_work``; ``residual`` is what it misses.
+    without rounding equals ``total_initial + load_work + circulatory_work``; ``residual`` is
+    what it misses.
 
     Parameters
     ----------
@@ -54,9 +55,10 @@ def ledger(response: Response, times: FloatArray) -> Ledger:
         "dissipated_damping": core["modal_dissipation"],
         "dissipated_stops": dissipated,
         "load_work": core["load_work"],
+        "circulatory_work": core["circulatory_work"],
         "total": total,
         "total_initial": np.full_like(total, present[0]),
-        "residual": total - present[0] - core["load_work"],
+        "residual": total - present[0] - core["load_work"] - core["circulatory_work"],
     }
     stops = {"stored_in_stop": core["law_stored"].T, "dissipated_in_stop": core["law_dissipated"].T}
     return Ledger(

@@ -117,14 +117,16 @@ def energy_ledger(response: Response) -> Figure:
     """Stack where the energy is over time, against what was put in.
 
     The top of the stack is kinetic + elastic + stored + dissipated; the dashed line is the
-    initial energy plus the work of the loads. They coincide where the ledger closes.
+    initial energy plus the work of loads and circulatory forces. They coincide where the ledger
+    closes.
     """
     times = instants(response)
     terms = response.energy_terms(times)
     present = [key for key in LEDGER if np.any(terms[key])]
     share = MOST_POINTS // max(len(present), 1)
     kept = np.unique([0, *(i for key in present for i in thin(terms[key], at_most=share))])
-    given = (terms["total_initial"] + terms["load_work"])[kept]
+    works = [name for name in ("load_work", "circulatory_work") if np.any(terms[name])]
+    given = sum((terms[name] for name in works), start=terms["total_initial"])[kept]
     time = Axis("Time", scale_for("s", times))
     energy = Axis("Energy", scale_for("J", given))
     x = time.scaled(times[kept])
@@ -135,7 +137,7 @@ def energy_ledger(response: Response) -> Figure:
         term |= {"stackgroup": "energy", "fillcolor": LIGHT[role], "opacity": 0.9}
         term["line"]["width"] = 0
         stack.append(term)
-    name = "Initial + work of loads" if np.any(terms["load_work"]) else "Initial energy"
+    name = "Initial + work put in" if works else "Initial energy"
     total = line_trace(x, energy.scaled(given), name, "total", energy)
     total["line"] |= {"dash": "dash", "width": 1.5}
     residual = power_of_ten(response.energy_residual)

@@ -73,12 +73,6 @@ class Bearing:
         for key in ("stiffness", "damping"):
             object.__setattr__(self, key, _in_plane(key, getattr(self, key)))
 
-    @property
-    def circulates(self) -> bool:
-        """Whether its stiffness has a skew-symmetric part."""
-        matrix = np.array(self.stiffness)
-        return bool(matrix[0, 1] != matrix[1, 0])
-
     def block(self, mesh: Mesh) -> Block:
         """Return the four matrices on the dofs of the bearing's nodes."""
         joint = Joint(mesh, self.node, self.other, f"bearings.{self.name}")

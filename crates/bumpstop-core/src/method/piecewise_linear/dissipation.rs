@@ -1,4 +1,4 @@
-//! What damping takes out of a phase, in closed form.
+//! What dampers take out of a phase that nothing else drives, in closed form.
 //!
 //! With rates `r_j = a_j lambda_j exp(lambda_j t)` a damped velocity is `Re sum s_j r_j`, and the
 //! integral of its square is the difference of a quadratic form of the rates,
@@ -13,11 +13,11 @@ use super::quadrature::integral;
 use super::rows::{ComplexBlock, Rows, entry};
 use super::single_mode::Rates;
 use super::spectrum::{Single, Spectrum};
-use crate::law::{Law, Piece};
+use super::view::View;
+use super::works::{Powers, Works, damper};
+use crate::law::Law;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
-use crate::system::Coupling as VelocityCoupling;
-use faer::{Mat, Side};
 
 /// Squares of coupled rates.
 #[derive(Debug, Clone)]
@@ -173,32 +173,31 @@ pub(crate) struct Dissipation {
     laws: Vec<Option<Form>>,
 }
 
-/// Energies that damping took, in J.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Dissipated {
-    pub modal: f64,
-    pub laws: Vec<f64>,
-}
-
 impl Dissipation {
-    /// The forms for the laws' states of a spectrum.
+    /// The forms for the laws' states of a spectrum, whose powers are all those of dampers.
     #[inline(always)]
-    pub(crate) fn new<I: Instructions, L: Law>(problem: &Problem<L>, spectrum: &Spectrum) -> Self {
+    pub(crate) fn new<I: Instructions, L: Law>(
+        problem: &Problem<L>,
+        powers: &Powers,
+        spectrum: &Spectrum,
+    ) -> Self {
+        let mut laws = Vec::with_capacity(problem.laws.len());
         let mut first_view = 0;
-        let laws = (problem.laws.iter().zip(&spectrum.states))
-            .map(|(law, state)| {
-                let view = first_view;
-                first_view += law.rows().len();
-                let piece = law.piece(*state).unwrap_or(Piece::FREE);
-                let factor = piece.damping[0][0];
-                (factor != 0.0 && spectrum.groups > 0).then(|| {
-                    let row = spectrum.views[view].whole(&spectrum.clusters);
-                    Form::new::<I>(spectrum, &[&row], &[factor])
-                })
-            })
-            .collect();
+        for (law, state) in problem.laws.iter().zip(&spectrum.states) {
+            let views = &spectrum.views[first_view..];
+            first_view += law.rows().len();
+            let power = law.dissipation(*state);
+            let (mut rows, mut constants) = (Vec::new(), Vec::new());
+            for (coordinate, constant) in power.products().iter().filter_map(damper) {
+                rows.push(views[coordinate].whole(&spectrum.clusters));
+                constants.push(constant);
+            }
+            let rows: Vec<&[ComplexBlock]> = rows.iter().map(|row| &row[..]).collect();
+            let acts = spectrum.groups > 0 && !rows.is_empty();
+            laws.push(acts.then(|| Form::new::<I>(spectrum, &rows, &constants)));
+        }
         Self {
-            modal: modal_form::<I, L>(problem, spectrum),
+            modal: modal_form::<I, L>(problem, powers, spectrum),
             laws,
         }
     }
@@ -211,12 +210,9 @@ impl Dissipation {
         phase: Phase,
         t: f64,
         work: &mut Workspace,
-    ) -> Dissipated {
+    ) -> Works {
         let spectrum = &phases.spectra[phase.spectrum];
-        let mut total = Dissipated {
-            modal: 0.0,
-            laws: vec![0.0; self.laws.len()],
-        };
+        let mut total = Works::none(self.laws.len());
         phases.turn::<I>(phase, 0.0, work);
         work.rate_at_start.clone_from(&work.rate);
         phases.turn::<I>(phase, t, work);
@@ -248,14 +244,16 @@ impl Dissipation {
 
 /// The form of the structure's own damping; `None` where the groups are not damped.
 #[inline(always)]
-fn modal_form<I: Instructions, L: Law>(problem: &Problem<L>, spectrum: &Spectrum) -> Option<Form> {
+fn modal_form<I: Instructions, L: Law>(
+    problem: &Problem<L>,
+    powers: &Powers,
+    spectrum: &Spectrum,
+) -> Option<Form> {
     if spectrum.groups == 0 {
         return None;
     }
-    if let Some(coupling) = problem.system.coupling() {
-        let (rows, factors) = principal_dampers(coupling, spectrum);
-        let rows: Vec<&[ComplexBlock]> = rows.iter().map(Vec::as_slice).collect();
-        return Some(Form::new::<I>(spectrum, &rows, &factors));
+    if problem.system.coupling().is_some() {
+        return Some(form_of_dampers::<I>(powers, spectrum));
     }
     if spectrum.group_damping.iter().all(|c| *c == 0.0) {
         return None;
@@ -267,41 +265,22 @@ fn modal_form<I: Instructions, L: Law>(problem: &Problem<L>, spectrum: &Spectrum
     Some(Form::new::<I>(spectrum, &rows, &spectrum.group_damping))
 }
 
-/// The symmetric part of a damping matrix as a sum of dampers: how each sees the exponents, and
-/// its constant. The skew part, of gyroscopic forces, takes nothing out.
-fn principal_dampers(
-    coupling: &VelocityCoupling,
-    spectrum: &Spectrum,
-) -> (Vec<Vec<ComplexBlock>>, Vec<f64>) {
-    let n = spectrum.groups;
-    let mode = |group: usize| spectrum.members[group].mode;
-    let symmetric = Mat::from_fn(n, n, |r, c| {
-        let own = if r == c {
-            spectrum.group_damping[r]
-        } else {
-            0.0
-        };
-        let (row, column) = (mode(r), mode(c));
-        own + 0.5 * (coupling.at(row, column) + coupling.at(column, row))
-    });
-    let Ok(eigen) = symmetric.self_adjoint_eigen(Side::Lower) else {
-        return (Vec::new(), Vec::new());
-    };
-    let rows = (0..n).map(|k| {
-        let mut row = vec![ComplexBlock::ZERO; spectrum.coupled_width];
-        for group in 0..n {
-            let weight = eigen.U()[(group, k)];
-            for (to, shape) in row.iter_mut().zip(spectrum.shape(group)) {
-                for lane in 0..LANES {
-                    to.re[lane] += weight * shape.re[lane];
-                    to.im[lane] += weight * shape.im[lane];
-                }
-            }
-        }
-        row
-    });
-    let factors = (0..n).map(|k| eigen.S()[k]).collect();
-    (rows.collect(), factors)
+/// The form of the dampers of a structure whose velocities are coupled.
+#[inline(always)]
+fn form_of_dampers<I: Instructions>(powers: &Powers, spectrum: &Spectrum) -> Form {
+    let mut views = Vec::with_capacity(powers.dampers.len());
+    let mut combined = Vec::new();
+    for damper in &powers.dampers {
+        let mut view = View::default();
+        view.set::<I>(spectrum, &damper.row, &mut combined);
+        views.push(view);
+    }
+    let rows: Vec<_> = (views.iter())
+        .map(|view| view.whole(&spectrum.clusters))
+        .collect();
+    let rows: Vec<&[ComplexBlock]> = rows.iter().map(|row| &row[..]).collect();
+    let constants: Vec<f64> = powers.dampers.iter().map(|d| d.constant).collect();
+    Form::new::<I>(spectrum, &rows, &constants)
 }
 
 /// The rates of a single motion's own exponentials.

@@ -34,6 +34,7 @@ mod spectrum;
 mod splitting;
 mod tables;
 mod view;
+mod works;
 
 pub use enclosure::Enclosure;
 pub use jet::{Jet, Verdict};
@@ -153,14 +154,15 @@ impl<'a, L: Law> Run<'a, L> {
                 from: 0.0,
                 limit: problem.duration.min(knot) - time,
             };
+            let limit = path.limit;
             let crossing = (self.scratch.walk).first_zero::<I>(path, &mut self.certificate);
+            self.phases.end(crossing.as_ref().map_or(limit, |c| c.time));
             let Some(crossing) = crossing else {
                 if knot >= problem.duration {
                     return Ok(());
                 }
-                let length = knot - time;
                 self.phases
-                    .motion::<I>(phase, length, &mut self.scratch.work, &mut q, &mut v);
+                    .motion::<I>(phase, limit, &mut self.scratch.work, &mut q, &mut v);
                 (time, fired, at_once) = (knot, None, 0);
                 continue;
             };

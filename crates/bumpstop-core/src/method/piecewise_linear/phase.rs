@@ -20,6 +20,8 @@ const LARGEST_DEFECT: f64 = 1e-10;
 pub(crate) struct Phase {
     /// Its first instant, in s.
     pub start: f64,
+    /// Its length, in s: the difference of two instants has lost digits.
+    pub length: f64,
     /// Its spectrum, by number.
     pub spectrum: usize,
     /// Where its amplitudes, its singles' initial states and its laws' states start.
@@ -153,6 +155,7 @@ impl Phases {
         let (q, v) = free.as_ref().map_or((q, v), |free| (&free.q, &free.v));
         let phase = Phase {
             start,
+            length: 0.0,
             spectrum,
             amplitudes: self.amplitudes.len(),
             kept: self.kept.len(),
@@ -208,6 +211,14 @@ impl Phases {
         let amplitudes = &mut self.amplitudes[phase.amplitudes..];
         for (harmonic, unit) in onset.units.iter().enumerate() {
             set_entry(amplitudes, response.at + harmonic, *unit);
+        }
+    }
+
+    /// Ends the latest phase.
+    #[inline(always)]
+    pub(crate) fn end(&mut self, length: f64) {
+        if let Some(phase) = self.list.last_mut() {
+            phase.length = length;
         }
     }
 

@@ -14,154 +14,188 @@
 //! is neither power nor exponential is integrated by quadrature, on panels short against the
 //! fastest exponent that is still felt. Each case is good to rounding of the largest of its terms.
 
-use super::quadrature::{LONGEST, panel};
-use super::rows::{ComplexBlock, entry, set_entry};
+use super::quadrature::{LONGEST, RULE, panel};
+use super::rows::{ComplexBlock, Rows, entry};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
-/// A signal as a factor of a product: exponentials, a polynomial, and what is neither.
+/// A signal as a factor of a product: `Re sum a_j exp(lambda_j t)` of the exponents of its phase,
+/// a polynomial, and what is neither.
 #[derive(Default)]
 pub(crate) struct Factor<'a> {
-    exponents: Vec<ComplexBlock>,
-    amplitudes: Vec<ComplexBlock>,
-    count: usize,
+    /// `a_j`, in the order of the exponents; none at all where the factor has no such part.
+    pub amplitudes: Vec<ComplexBlock>,
     /// Coefficients of the powers of the time.
-    polynomial: Vec<f64>,
-    other: Option<Other<'a>>,
+    pub polynomial: Vec<f64>,
+    pub other: Option<Other<'a>>,
 }
 
 /// The part of a signal that is neither exponential nor polynomial.
-struct Other<'a> {
-    value: Box<dyn Fn(f64) -> f64 + 'a>,
+pub(crate) struct Other<'a> {
+    pub value: Box<dyn Fn(f64) -> f64 + 'a>,
     /// A modulus that no exponent in it exceeds, in 1/s.
-    pace: f64,
+    pub pace: f64,
 }
 
 /// Terms below this part of the largest one are not felt any more.
 const FELT: f64 = 1e-18;
 
-impl<'a> Factor<'a> {
-    /// A polynomial of the time.
-    pub(crate) fn of_polynomial(coefficients: &[f64]) -> Self {
+impl Factor<'_> {
+    /// How many exponentials have a part in it.
+    fn exponentials(&self) -> usize {
+        let nonzero = |block: &ComplexBlock| {
+            (0..LANES)
+                .filter(|&lane| block.re[lane] != 0.0 || block.im[lane] != 0.0)
+                .count()
+        };
+        self.amplitudes.iter().map(nonzero).sum()
+    }
+}
+
+/// Products of the exponentials of a phase, integrated from its start to one instant. They are
+/// made when the first product asks for them and serve all others.
+pub(crate) struct Products<'a> {
+    exponents: &'a [ComplexBlock],
+    until: f64,
+    /// `E(lambda_j + lambda_k)` and `E(conj(lambda_j) + lambda_k)`, a row for each j.
+    together: Rows,
+    apart: Rows,
+    made: Vec<bool>,
+}
+
+impl<'a> Products<'a> {
+    /// For the exponents of a phase, `until` after its start.
+    pub(crate) fn new(exponents: &'a [ComplexBlock], until: f64) -> Self {
+        let (count, width) = (exponents.len() * LANES, exponents.len());
         Self {
-            polynomial: coefficients.to_vec(),
-            ..Self::default()
+            exponents,
+            until,
+            together: Rows::zeros(count, width),
+            apart: Rows::zeros(count, width),
+            made: vec![false; count],
         }
     }
 
-    /// Adds `Re (amplitude exp(exponent t))`.
-    pub(crate) fn push(&mut self, exponent: Complex<f64>, amplitude: Complex<f64>) {
-        if self.count.is_multiple_of(LANES) {
-            self.exponents.push(ComplexBlock::ZERO);
-            self.amplitudes.push(ComplexBlock::ZERO);
-        }
-        set_entry(&mut self.exponents, self.count, exponent);
-        set_entry(&mut self.amplitudes, self.count, amplitude);
-        self.count += 1;
-    }
-
-    /// Adds what is neither exponential nor polynomial; no exponent in it has a modulus above
-    /// `pace`.
-    pub(crate) fn with_other(mut self, pace: f64, value: impl Fn(f64) -> f64 + 'a) -> Self {
-        self.other = Some(Other {
-            value: Box::new(value),
-            pace,
-        });
-        self
-    }
-
-    /// Integral of the product with another factor from 0 to t.
+    /// Integral of the product of two factors.
     #[inline(always)]
-    pub(crate) fn integral<I: Instructions>(&self, other: &Factor<'_>, t: f64) -> f64 {
-        let mut total = self.exponentials_with_exponentials::<I>(other, t);
-        total += self.exponentials_with_powers(&other.polynomial, t);
-        total += other.exponentials_with_powers(&self.polynomial, t);
-        for (n, p) in self.polynomial.iter().enumerate() {
-            for (m, q) in other.polynomial.iter().enumerate() {
+    pub(crate) fn integral<I: Instructions>(&mut self, a: &Factor<'_>, b: &Factor<'_>) -> f64 {
+        let t = self.until;
+        let mut total = if a.exponentials() <= b.exponentials() {
+            self.of_exponentials::<I>(&a.amplitudes, &b.amplitudes)
+        } else {
+            self.of_exponentials::<I>(&b.amplitudes, &a.amplitudes)
+        };
+        total += self.with_powers::<I>(&a.amplitudes, &b.polynomial);
+        total += self.with_powers::<I>(&b.amplitudes, &a.polynomial);
+        for (n, p) in a.polynomial.iter().enumerate() {
+            for (m, q) in b.polynomial.iter().enumerate() {
                 total += p * q * t.powi((n + m + 1) as i32) / (n + m + 1) as f64;
             }
         }
-        if self.other.is_some() || other.other.is_some() {
-            total += self.remaining(other, t);
+        if a.other.is_some() || b.other.is_some() {
+            total += self.remaining::<I>(a, b);
         }
         total
     }
 
     #[inline(always)]
-    fn exponentials_with_exponentials<I: Instructions>(&self, other: &Factor<'_>, t: f64) -> f64 {
-        let length = Lanes::<I>::of(t);
+    fn of_exponentials<I: Instructions>(&mut self, a: &[ComplexBlock], b: &[ComplexBlock]) -> f64 {
         let mut total = Lanes::<I>::of(0.0);
-        for j in 0..self.count {
-            let (lambda, a) = (entry(&self.exponents, j), entry(&self.amplitudes, j));
-            let [lambda, a] = [lambda, a].map(spread::<I>);
-            for (mu, b) in other.exponents.iter().zip(&other.amplitudes) {
-                let (mu, b) = (mu.lanes::<I>(), b.lanes::<I>());
-                let grown_together = grown(lambda + mu, length);
-                let grown_apart = grown(lambda.conj() + mu, length);
-                total = (a * b).add_real_product(grown_together, total);
-                total = (a.conj() * b).add_real_product(grown_apart, total);
+        if b.is_empty() {
+            return 0.0;
+        }
+        for j in 0..a.len() * LANES {
+            let own = entry(a, j);
+            if own.re == 0.0 && own.im == 0.0 {
+                continue;
+            }
+            self.make_row::<I>(j);
+            let own = spread::<I>(own);
+            let rows = self.together.row(j).iter().zip(self.apart.row(j));
+            for (b, (together, apart)) in b.iter().zip(rows) {
+                let b = b.lanes::<I>();
+                total = (own * b).add_real_product(together.lanes(), total);
+                total = (own.conj() * b).add_real_product(apart.lanes(), total);
             }
         }
         0.5 * total.total()
     }
 
-    fn exponentials_with_powers(&self, polynomial: &[f64], t: f64) -> f64 {
-        let mut total = 0.0;
-        if polynomial.iter().all(|p| *p == 0.0) {
-            return total;
+    #[inline(always)]
+    fn make_row<I: Instructions>(&mut self, j: usize) {
+        if self.made[j] {
+            return;
         }
-        for j in 0..self.count {
-            let (lambda, a) = (entry(&self.exponents, j), entry(&self.amplitudes, j));
-            total += (a * with_powers(lambda, polynomial, t)).re;
+        self.made[j] = true;
+        let own = spread::<I>(entry(self.exponents, j));
+        let rows = (self.together.row_mut(j).iter_mut()).zip(self.apart.row_mut(j));
+        for (exponent, (together, apart)) in self.exponents.iter().zip(rows) {
+            let exponent = exponent.lanes::<I>();
+            together.put(grown_lanes::<I>(own + exponent, self.until));
+            apart.put(grown_lanes::<I>(own.conj() + exponent, self.until));
         }
-        total
     }
 
-    /// Integral of the products in which the remaining part of either has a share.
-    fn remaining(&self, other: &Factor<'_>, t: f64) -> f64 {
-        let mut total = 0.0;
-        let mut start = 0.0;
+    /// Exponentials times a polynomial.
+    #[inline(always)]
+    fn with_powers<I: Instructions>(&self, amplitudes: &[ComplexBlock], polynomial: &[f64]) -> f64 {
+        let mut total = Lanes::<I>::of(0.0);
+        if polynomial.iter().all(|p| *p == 0.0) {
+            return 0.0;
+        }
+        for (exponent, amplitude) in self.exponents.iter().zip(amplitudes) {
+            if *amplitude != ComplexBlock::ZERO {
+                let part = with_powers::<I>(exponent.lanes(), polynomial, self.until);
+                total = amplitude.lanes().add_real_product(part, total);
+            }
+        }
+        total.total()
+    }
+
+    /// What the parts of either that have no closed form add.
+    #[inline(always)]
+    fn remaining<I: Instructions>(&self, a: &Factor<'_>, b: &Factor<'_>) -> f64 {
+        let t = self.until;
+        let (mut total, mut start) = (0.0, 0.0);
         while start < t {
-            let pace = self.pace(start) + other.pace(start);
+            let pace = self.pace(a, start) + self.pace(b, start);
             let left = t - start;
-            let length = if pace * left > LONGEST {
-                // Equal panels, if the pace stays: none is left that is shorter than rounding.
-                left / (pace * left / LONGEST).ceil()
-            } else {
-                left
-            };
+            let panels = (pace * left / LONGEST).ceil().max(1.0);
+            let length = left / panels;
             let [part] = panel(start, length, |x| {
-                let (own, rest) = self.values(x);
-                let (others, others_rest) = other.values(x);
-                [rest * (others + others_rest) + own * others_rest]
+                let (of_a, rest_of_a) = self.values::<I>(a, x);
+                let (of_b, rest_of_b) = self.values::<I>(b, x);
+                [rest_of_a * (of_b + rest_of_b) + of_a * rest_of_b]
             });
             total += part;
-            start = if length < left { start + length } else { t };
+            start = if panels > 1.0 { start + length } else { t };
         }
         total
     }
 
     /// Value of what has a closed form, and of what has not.
-    fn values(&self, t: f64) -> (f64, f64) {
-        let mut closed = power_sum(&self.polynomial, t);
-        for j in 0..self.count {
-            let turn = entry(&self.exponents, j).scale(t);
-            closed += entry(&self.amplitudes, j).real_product(turn.exp());
+    #[inline(always)]
+    fn values<I: Instructions>(&self, of: &Factor<'_>, t: f64) -> (f64, f64) {
+        let mut total = Lanes::<I>::of(0.0);
+        let time = Lanes::<I>::of(t);
+        for (exponent, amplitude) in self.exponents.iter().zip(&of.amplitudes) {
+            let turned = exponent.lanes::<I>().scale(time).exp();
+            total = amplitude.lanes().add_real_product(turned, total);
         }
-        (closed, self.other.as_ref().map_or(0.0, |o| (o.value)(t)))
+        let closed = power_sum(&of.polynomial, t) + total.total();
+        (closed, of.other.as_ref().map_or(0.0, |o| (o.value)(t)))
     }
 
     /// The largest modulus of the exponents that are felt at time t.
-    fn pace(&self, t: f64) -> f64 {
-        let size = |j: usize| {
-            let (lambda, a) = (entry(&self.exponents, j), entry(&self.amplitudes, j));
-            a.norm() * Number::exp(lambda.re * t)
+    fn pace(&self, of: &Factor<'_>, t: f64) -> f64 {
+        let terms = || {
+            let indices = 0..of.amplitudes.len() * LANES;
+            indices.map(|j| (entry(self.exponents, j), entry(&of.amplitudes, j).norm()))
         };
-        let largest = (0..self.count).map(|j| entry(&self.amplitudes, j).norm());
-        let felt = FELT * largest.fold(0.0, f64::max);
-        (0..self.count)
-            .filter(|&j| size(j) > felt)
-            .map(|j| entry(&self.exponents, j).norm())
-            .fold(self.other.as_ref().map_or(0.0, |o| o.pace), f64::max)
+        let felt = FELT * terms().map(|(_, size)| size).fold(0.0, f64::max);
+        terms()
+            .filter(|(lambda, size)| size * Number::exp(lambda.re * t) > felt)
+            .map(|(lambda, _)| lambda.norm())
+            .fold(of.other.as_ref().map_or(0.0, |o| o.pace), f64::max)
     }
 }
 
@@ -178,58 +212,132 @@ const SHORT: f64 = 0.5;
 const SHORT_TERMS: u32 = 15;
 
 /// Integral of `exp(s x)` from 0 to t, good to rounding of t times the largest exponential.
-#[inline(always)]
-pub(super) fn grown<T: Number>(s: Complex<T>, t: T) -> Complex<T> {
+pub(super) fn grown(s: Complex<f64>, t: f64) -> Complex<f64> {
     let turn = s.scale(t);
-    let size = turn.norm2();
-    // 1 + z/2 (1 + z/3 (1 + ...))
+    if turn.norm2() < SHORT * SHORT {
+        short_series(turn).scale(t)
+    } else {
+        turn.exp().plus(-1.0) * s.recip()
+    }
+}
+
+/// The same for eight exponents.
+#[inline(always)]
+fn grown_lanes<I: Instructions>(s: Complex<Lanes<I>>, t: f64) -> Complex<Lanes<I>> {
+    let (t, one) = (Lanes::<I>::of(t), Lanes::<I>::of(1.0));
+    let turn = s.scale(t);
+    let (size, limit) = (turn.norm2(), Lanes::of(SHORT * SHORT));
+    let divisor = Complex::new(size.select_less(limit, one, s.re), s.im);
+    let closed = turn.exp().plus(-one) * divisor.recip();
+    if size.numbers().iter().all(|size| *size >= SHORT * SHORT) {
+        return closed;
+    }
+    let series = short_series(turn).scale(t);
+    select_less(size, limit, series, closed)
+}
+
+/// `(exp(z) - 1)/z` for small z: `1 + z/2 (1 + z/3 (1 + ...))`.
+#[inline(always)]
+fn short_series<T: Number>(z: Complex<T>) -> Complex<T> {
     let mut series = Complex::real(T::of(1.0));
     for n in (2..=SHORT_TERMS).rev() {
-        series = (turn * series)
-            .scale(T::of(1.0 / f64::from(n)))
-            .plus(T::of(1.0));
+        let next = (z * series).scale(T::of(1.0 / f64::from(n)));
+        series = next.plus(T::of(1.0));
     }
-    let series = series.scale(t);
-    let one = T::of(1.0);
-    let is_short = size.select_less(T::of(SHORT * SHORT), one, T::of(0.0));
-    let denominator = Complex::new(T::of(0.0).select_less(is_short, one, s.re), s.im);
-    let closed = turn.exp().plus(-one) * denominator.recip();
-    Complex::new(
-        T::of(0.0).select_less(is_short, series.re, closed.re),
-        T::of(0.0).select_less(is_short, series.im, closed.im),
-    )
+    series
 }
 
-/// `sum p_n x^n`
-fn power_sum(polynomial: &[f64], x: f64) -> f64 {
-    polynomial.iter().rev().fold(0.0, |sum, p| sum * x + p)
+/// Integral of `(sum p_n x^n) exp(lambda x)` from 0 to t for eight exponents.
+#[inline(always)]
+fn with_powers<I: Instructions>(
+    lambda: Complex<Lanes<I>>,
+    polynomial: &[f64],
+    t: f64,
+) -> Complex<Lanes<I>> {
+    let turn = lambda.scale(Lanes::of(t));
+    let (size, limit) = (turn.norm2(), Lanes::of(LONGEST * LONGEST));
+    let sizes = size.numbers();
+    let is_short = |size: &f64| *size < LONGEST * LONGEST;
+    if sizes.iter().all(is_short) {
+        return powers_by_quadrature::<I>(lambda, polynomial, t);
+    }
+    let divisor = Complex::new(
+        size.select_less(limit, Lanes::of(1.0), lambda.re),
+        lambda.im,
+    );
+    let by_parts = powers_by_parts::<I>(turn.exp(), divisor, polynomial, t);
+    if !sizes.iter().any(is_short) {
+        return by_parts;
+    }
+    let short = powers_by_quadrature::<I>(lambda, polynomial, t);
+    select_less(size, limit, short, by_parts)
 }
 
-/// Integral of `(sum p_n x^n) exp(lambda x)` from 0 to t.
-fn with_powers(lambda: Complex<f64>, polynomial: &[f64], t: f64) -> Complex<f64> {
-    let turn = lambda.scale(t);
-    if turn.norm() < LONGEST {
-        let [re, im] = panel(0.0, t, |x| {
-            let value = lambda.scale(x).exp().scale(power_sum(polynomial, x));
-            [value.re, value.im]
-        });
-        return Complex::new(re, im);
-    }
-    // By parts: lambda I_n = t^n exp(lambda t) - n I_(n-1), whose errors shrink while n < |lambda t|.
-    let (end, inverse) = (turn.exp(), lambda.recip());
-    let mut moment = end.plus(-1.0) * inverse;
-    let mut total = moment.scale(polynomial[0]);
-    let mut power = 1.0;
-    for (n, p) in polynomial.iter().enumerate().skip(1) {
-        power *= t;
-        moment = (end.scale(power) - moment.scale(n as f64)) * inverse;
-        total += moment.scale(*p);
+/// One panel of quadrature serves where `|lambda t|` is small.
+#[inline(always)]
+fn powers_by_quadrature<I: Instructions>(
+    lambda: Complex<Lanes<I>>,
+    polynomial: &[f64],
+    t: f64,
+) -> Complex<Lanes<I>> {
+    let half = 0.5 * t;
+    let mut total = Complex::zero();
+    for (node, weight) in RULE {
+        for x in [half - half * node, half + half * node] {
+            let factor = half * weight * power_sum(polynomial, x);
+            let turned = lambda.scale(Lanes::of(x)).exp();
+            total = turned.scale_add(Lanes::of(factor), total);
+        }
     }
     total
 }
 
+/// `lambda I_n = t^n exp(lambda t) - n I_(n-1)`, whose errors shrink while `n < |lambda t|`.
+#[inline(always)]
+fn powers_by_parts<I: Instructions>(
+    end: Complex<Lanes<I>>,
+    lambda: Complex<Lanes<I>>,
+    polynomial: &[f64],
+    t: f64,
+) -> Complex<Lanes<I>> {
+    let inverse = lambda.recip();
+    let mut moment = end.plus(Lanes::of(-1.0)) * inverse;
+    let mut total = moment.scale(Lanes::of(polynomial[0]));
+    let mut power = 1.0;
+    for (n, p) in polynomial.iter().enumerate().skip(1) {
+        power *= t;
+        let parts = end.scale(Lanes::of(power)) - moment.scale(Lanes::of(n as f64));
+        moment = parts * inverse;
+        total = moment.scale_add(Lanes::of(*p), total);
+    }
+    total
+}
+
+/// `yes` in the lanes where `a < b`, else `no`.
+#[inline(always)]
+fn select_less<I: Instructions>(
+    a: Lanes<I>,
+    b: Lanes<I>,
+    yes: Complex<Lanes<I>>,
+    no: Complex<Lanes<I>>,
+) -> Complex<Lanes<I>> {
+    let re = a.select_less(b, yes.re, no.re);
+    Complex::new(re, a.select_less(b, yes.im, no.im))
+}
+
+/// `sum p_n x^n`
+#[inline(always)]
+fn power_sum(polynomial: &[f64], x: f64) -> f64 {
+    let mut sum = 0.0;
+    for p in polynomial.iter().rev() {
+        sum = sum * x + p;
+    }
+    sum
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::rows::set_entry;
     use super::*;
     use crate::number::Plain;
     use proptest::prelude::*;
@@ -237,30 +345,77 @@ mod tests {
     /// `Re (amplitude exp(exponent t))`: exponent and amplitude, real and imaginary parts.
     type Term = [f64; 4];
 
-    fn factor(terms: &[Term], polynomial: &[f64]) -> Factor<'static> {
-        let mut factor = Factor::of_polynomial(polynomial);
-        for [re, im, a, b] in terms {
-            factor.push(Complex::new(*re, *im), Complex::new(*a, *b));
-        }
-        factor
+    /// A term is at most `factor t^power exp(growth t)`.
+    struct Size {
+        growth: f64,
+        power: i32,
+        factor: f64,
     }
 
-    /// Size of the terms of an integral.
-    fn size(a: &Factor<'_>, b: &Factor<'_>, t: f64) -> f64 {
-        let terms = |f: &Factor<'_>| {
-            let powers = f.polynomial.iter().enumerate();
-            let powers = powers.map(|(n, p)| (0.0, p.abs() * t.powi(n as i32)));
-            let exponentials =
-                (0..f.count).map(|j| (entry(&f.exponents, j).re, entry(&f.amplitudes, j).norm()));
-            powers.chain(exponentials).collect::<Vec<_>>()
-        };
-        let mut total = 0.0;
-        for (growth, a) in terms(a) {
-            for (more, b) in terms(b) {
-                total += a * b * t * Number::exp(((growth + more) * t).max(0.0));
+    /// Two sums of exponentials and powers.
+    struct Pair {
+        exponents: Vec<ComplexBlock>,
+        factors: [Factor<'static>; 2],
+        sizes: [Vec<Size>; 2],
+    }
+
+    impl Pair {
+        fn new(terms: [&[Term]; 2], polynomials: [&[f64]; 2]) -> Self {
+            let all: Vec<&Term> = terms.into_iter().flatten().collect();
+            let blocks = all.len().div_ceil(LANES);
+            let mut exponents = vec![ComplexBlock::ZERO; blocks];
+            for (j, [re, im, ..]) in all.iter().enumerate() {
+                set_entry(&mut exponents, j, Complex::new(*re, *im));
+            }
+            let own = |number: usize, j: usize| (j < terms[0].len()) == (number == 0);
+            let factors = [0, 1].map(|number| {
+                let mut amplitudes = vec![ComplexBlock::ZERO; blocks];
+                for (j, [.., a, b]) in all.iter().enumerate().filter(|(j, _)| own(number, *j)) {
+                    set_entry(&mut amplitudes, j, Complex::new(*a, *b));
+                }
+                Factor {
+                    amplitudes,
+                    polynomial: polynomials[number].to_vec(),
+                    other: None,
+                }
+            });
+            let sizes = [0, 1].map(|number| {
+                let powers = polynomials[number].iter().enumerate().map(|(n, p)| Size {
+                    growth: 0.0,
+                    power: n as i32,
+                    factor: p.abs(),
+                });
+                let exponentials = terms[number].iter().map(|[re, _, a, b]| Size {
+                    growth: *re,
+                    power: 0,
+                    factor: a.hypot(*b),
+                });
+                exponentials.chain(powers).collect()
+            });
+            Self {
+                exponents,
+                factors,
+                sizes,
             }
         }
-        total
+
+        fn integral(&self, t: f64) -> f64 {
+            let mut products = Products::new(&self.exponents, t);
+            products.integral::<Plain>(&self.factors[0], &self.factors[1])
+        }
+
+        /// Size of the terms of the integral.
+        fn size(&self, t: f64) -> f64 {
+            let mut total = 0.0;
+            for a in &self.sizes[0] {
+                for b in &self.sizes[1] {
+                    let growth = ((a.growth + b.growth) * t).max(0.0);
+                    let power = t.powi(a.power + b.power + 1);
+                    total += a.factor * b.factor * power * Number::exp(growth);
+                }
+            }
+            total
+        }
     }
 
     type Hard = (
@@ -360,10 +515,9 @@ mod tests {
             ),
         ];
         for (number, (a, p, b, q, t, expected)) in cases.into_iter().enumerate() {
-            let (a, b) = (factor(a, p), factor(b, q));
-            for (a, b) in [(&a, &b), (&b, &a)] {
-                let found = a.integral::<Plain>(b, t);
-                let error = (found - expected).abs() / size(a, b, t);
+            for pair in [Pair::new([a, b], [p, q]), Pair::new([b, a], [q, p])] {
+                let found = pair.integral(t);
+                let error = (found - expected).abs() / pair.size(t);
                 assert!(error < 2e-16, "case {number}: {found} {expected} {error:e}");
             }
         }
@@ -386,14 +540,15 @@ mod tests {
         fn products_are_what_quadrature_finds(
             a in terms(), p in powers(), b in terms(), q in powers(), t in 0.01f64..2.0,
         ) {
-            let (a, b) = (factor(&a, &p), factor(&b, &q));
+            let pair = Pair::new([&a, &b], [&p, &q]);
+            let products = Products::new(&pair.exponents, t);
+            let value = |factor: usize, x| products.values::<Plain>(&pair.factors[factor], x).0;
             let count = 64;
             let length = t / f64::from(count);
             let expected: f64 = (0..count)
-                .map(|i| panel(f64::from(i) * length, length, |x| [a.values(x).0 * b.values(x).0])[0])
+                .map(|i| panel(f64::from(i) * length, length, |x| [value(0, x) * value(1, x)])[0])
                 .sum();
-            let found = a.integral::<Plain>(&b, t);
-            let size = size(&a, &b, t);
+            let (found, size) = (pair.integral(t), pair.size(t));
             prop_assert!((found - expected).abs() <= 4e-15 * size, "{found} {expected} {size}");
         }
 
@@ -402,12 +557,22 @@ mod tests {
             a in terms(), p in powers(), b in terms(), q in powers(), c in terms(), t in 0.01f64..2.0,
         ) {
             let whole: Vec<Term> = a.iter().chain(&c).copied().collect();
-            let (whole, a) = (factor(&whole, &p), factor(&a, &p));
-            let (rest, b) = (factor(&c, &[]), factor(&b, &q));
-            let expected = whole.integral::<Plain>(&b, t);
-            let split = a.with_other(50.0, |x| rest.values(x).0);
-            let size = size(&whole, &b, t);
-            for found in [split.integral::<Plain>(&b, t), b.integral::<Plain>(&split, t)] {
+            let expected = Pair::new([&whole, &b], [&p, &q]);
+            let mut split = Pair::new([&a, &b], [&p, &q]);
+            let value = move |x: f64| {
+                let term = |[re, im, a, b]: &Term| {
+                    Complex::new(*a, *b).real_product(Complex::new(re * x, im * x).exp())
+                };
+                c.iter().map(term).sum()
+            };
+            split.factors[0].other = Some(Other {
+                value: Box::new(value),
+                pace: 50.0,
+            });
+            let (expected, size) = (expected.integral(t), expected.size(t));
+            let forward = split.integral(t);
+            split.factors.swap(0, 1);
+            for found in [forward, split.integral(t)] {
                 prop_assert!((found - expected).abs() <= 4e-15 * size, "{found} {expected} {size}");
             }
         }

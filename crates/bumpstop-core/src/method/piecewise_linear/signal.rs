@@ -6,7 +6,7 @@ use super::clustered::Clustered;
 use super::jet::Jet;
 use super::phase::{Phase, Phases};
 use super::polynomial::Polynomial;
-use super::product::{Factor, grown};
+use super::product::{Factor, Other, grown};
 use super::resonance::Resonant;
 use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
 use super::spectrum::Spectrum;
@@ -299,33 +299,28 @@ impl Signal {
 
     /// The signal as a factor of a product.
     pub(crate) fn factor<'a>(&'a self, phases: &'a Phases, phase: Phase) -> Factor<'a> {
-        let spectrum = &phases.spectra[phase.spectrum];
-        let mut factor = Factor::of_polynomial(self.polynomial.terms());
-        for (terms, lambda) in self.terms.iter().zip(&spectrum.lambda) {
-            for lane in 0..LANES {
-                if terms.size.0[lane] > 0.0 {
-                    let lambda = entry(std::slice::from_ref(lambda), lane);
-                    factor.push(lambda, entry(&terms.of[..1], lane));
-                }
-            }
-        }
-        if self.specials.is_empty() && self.resonances.is_empty() && self.clustered.is_empty() {
-            return factor;
-        }
         let paces = self.specials.iter().map(|special| {
-            let motion = &spectrum.singles[special.single].motion;
+            let motion = &phases.spectra[phase.spectrum].singles[special.single].motion;
             motion.omega2.abs().sqrt().max(motion.damping)
         });
         let paces = paces.chain(self.resonances.iter().map(|r| r.lambda.norm().max(r.omega)));
-        factor.with_other(
-            paces.fold(self.clustered.pace(spectrum), f64::max),
-            move |t| {
+        let own = self.clustered.pace(&phases.spectra[phase.spectrum]);
+        let has_other =
+            !(self.specials.is_empty() && self.resonances.is_empty() && self.clustered.is_empty());
+        let other = has_other.then(|| Other {
+            pace: paces.fold(own, f64::max),
+            value: Box::new(move |t| {
                 let mut values = [0.0; 3];
                 self.add_specials(phases, phase, t, &mut values);
                 (self.clustered).add_values(phases, phase, t, &mut values);
                 values[0]
-            },
-        )
+            }),
+        });
+        Factor {
+            amplitudes: self.terms.iter().map(|terms| terms.of[0]).collect(),
+            polynomial: self.polynomial.terms().to_vec(),
+            other,
+        }
     }
 
     /// Makes the signal positive just after the start of the phase; tells whether it is so at

@@ -3,71 +3,76 @@
 use super::{Motion, PhaseRecord};
 use crate::energy::{self, Ledger};
 use crate::law::{Law, State, project};
-use crate::method::piecewise_linear::dissipation::{Dissipated, Dissipation};
 use crate::method::piecewise_linear::phase::{Phase, Phases, Workspace};
+use crate::method::piecewise_linear::works::{Meter, Powers, Works};
 use crate::number::{Instructions, Vectorised};
 use crate::problem::Problem;
 
 /// Ledgers at the start of every phase and at the end of the run.
 #[derive(Debug, Clone)]
 pub(super) struct Accounts {
-    pub(super) forms: Vec<Dissipation>,
+    meters: Vec<Meter>,
     pub(super) ledgers: Vec<Ledger>,
+    /// Work of the loads that change in time up to each ledger.
+    changing: Vec<f64>,
 }
 
 impl PhaseRecord {
     #[inline(always)]
     fn settle<I: Instructions, L: Law>(&self, problem: &Problem<L>) -> Accounts {
-        let mut forms = Vec::with_capacity(self.phases.spectra.len());
-        for spectrum in &self.phases.spectra {
-            forms.push(Dissipation::new::<I, L>(problem, spectrum));
+        let powers = Powers::of(&problem.system, &problem.forcing);
+        let phases = &self.phases;
+        let count = phases.list.len();
+        let mut accounts = Accounts {
+            meters: Vec::with_capacity(phases.spectra.len()),
+            ledgers: Vec::with_capacity(count + 1),
+            changing: Vec::with_capacity(count + 1),
+        };
+        for spectrum in &phases.spectra {
+            let meter = Meter::new::<I, L>(problem, &powers, spectrum);
+            accounts.meters.push(meter);
         }
         let mut work = Workspace::default();
-        let mut ledgers: Vec<Ledger> = Vec::with_capacity(self.phases.list.len() + 1);
-        let mut motion = Motion {
-            q: problem.displacement.clone(),
-            v: problem.velocity.clone(),
-        };
-        let mut before: Option<Phase> = None;
-        let mut dissipated = none(problem);
-        for phase in &self.phases.list {
-            if let Some(before) = before {
-                let length = phase.start - before.start;
-                let form = &forms[before.spectrum];
-                dissipated = form.until::<I>(&self.phases, before, length, &mut work);
-                motion = self.motion_in::<I, L>(problem, before, length, &mut work);
-                add_switch_losses(
-                    problem,
-                    &self.phases,
-                    before,
-                    *phase,
-                    &motion,
-                    &mut dissipated,
-                );
+        for (number, phase) in phases.list.iter().enumerate() {
+            if number == 0 {
+                let motion = Motion {
+                    q: problem.displacement.clone(),
+                    v: problem.velocity.clone(),
+                };
+                let ledger = state_ledger(problem, phases.states(*phase), &motion);
+                accounts.ledgers.push(ledger);
+                accounts.changing.push(0.0);
             }
-            ledgers.push(next_ledger(
-                problem,
-                self.phases.states(*phase),
-                &motion,
-                ledgers.last(),
-                &dissipated,
-            ));
-            before = Some(*phase);
+            let next = phases.list.get(number + 1);
+            let length = phase.length;
+            let meter = &accounts.meters[phase.spectrum];
+            let mut works = meter.until::<I, L>(problem, phases, *phase, length, &mut work);
+            let motion = self.motion_in::<I, L>(problem, *phase, length, &mut work);
+            if let Some(next) = next {
+                add_switch_losses(problem, phases, *phase, *next, &motion, &mut works);
+            }
+            let after = next.unwrap_or(phase);
+            let mut ledger = state_ledger(problem, phases.states(*after), &motion);
+            accounts.add_works(number, &works, &mut ledger);
+            accounts
+                .changing
+                .push(accounts.changing[number] + works.loads);
+            accounts.ledgers.push(ledger);
         }
-        if let Some(last) = before {
-            let length = self.duration - last.start;
-            dissipated = forms[last.spectrum].until::<I>(&self.phases, last, length, &mut work);
-            motion = self.motion_in::<I, L>(problem, last, length, &mut work);
-            let states = self.phases.states(last);
-            ledgers.push(next_ledger(
-                problem,
-                states,
-                &motion,
-                ledgers.last(),
-                &dissipated,
-            ));
+        accounts
+    }
+}
+
+impl Accounts {
+    /// Adds to a ledger of the state alone what was done up to the start of a phase and since.
+    fn add_works(&self, phase: usize, works: &Works, ledger: &mut Ledger) {
+        let last = &self.ledgers[phase];
+        ledger.load_work += self.changing[phase] + works.loads;
+        ledger.modal_dissipation = last.modal_dissipation + works.modal;
+        ledger.circulatory_work = last.circulatory_work + works.circulatory;
+        for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
+            *total = last.law_dissipated[i] + works.laws[i];
         }
-        Accounts { forms, ledgers }
     }
 }
 
@@ -93,11 +98,11 @@ impl<L: Law> Vectorised for Ledgers<'_, L> {
             let number = record.phase_at(*time);
             let phase = phases.list[number];
             let t = time - phase.start;
-            let form = &accounts.forms[phase.spectrum];
-            let dissipated = form.until::<I>(phases, phase, t, &mut work);
+            let meter = &accounts.meters[phase.spectrum];
+            let works = meter.until::<I, L>(problem, phases, phase, t, &mut work);
             let motion = record.motion_in::<I, L>(problem, phase, t, &mut work);
             let mut ledger = state_ledger(problem, phases.states(phase), &motion);
-            add_dissipated(&mut ledger, &accounts.ledgers[number], &dissipated);
+            accounts.add_works(number, &works, &mut ledger);
             ledgers.push(ledger);
         }
         ledgers
@@ -118,7 +123,7 @@ impl<L: Law> Vectorised for Settlement<'_, L> {
     }
 }
 
-/// Kinetic, elastic and stored energies and work of loads.
+/// Kinetic, elastic and stored energies and the work of constant loads.
 fn state_ledger<L: Law>(problem: &Problem<L>, states: &[State], motion: &Motion) -> Ledger {
     let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), &motion.q, &motion.v);
     Ledger {
@@ -128,36 +133,9 @@ fn state_ledger<L: Law>(problem: &Problem<L>, states: &[State], motion: &Motion)
             .map(|(law, state)| law.stored(*state, &project(law, &motion.q)))
             .collect(),
         modal_dissipation: 0.0,
+        circulatory_work: 0.0,
         law_dissipated: vec![0.0; problem.laws.len()],
         load_work: problem.forcing.work(&problem.displacement, &motion.q),
-    }
-}
-
-fn none<L: Law>(problem: &Problem<L>) -> Dissipated {
-    Dissipated {
-        modal: 0.0,
-        laws: vec![0.0; problem.laws.len()],
-    }
-}
-
-fn next_ledger<L: Law>(
-    problem: &Problem<L>,
-    states: &[State],
-    motion: &Motion,
-    last: Option<&Ledger>,
-    dissipated: &Dissipated,
-) -> Ledger {
-    let mut ledger = state_ledger(problem, states, motion);
-    if let Some(last) = last {
-        add_dissipated(&mut ledger, last, dissipated);
-    }
-    ledger
-}
-
-fn add_dissipated(ledger: &mut Ledger, last: &Ledger, dissipated: &Dissipated) {
-    ledger.modal_dissipation = last.modal_dissipation + dissipated.modal;
-    for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
-        *total = last.law_dissipated[i] + dissipated.laws[i];
     }
 }
 
@@ -167,12 +145,12 @@ fn add_switch_losses<L: Law>(
     before: Phase,
     after: Phase,
     motion: &Motion,
-    dissipated: &mut Dissipated,
+    works: &mut Works,
 ) {
     let (from, to) = (phases.states(before), phases.states(after));
     for (i, law) in problem.laws.iter().enumerate() {
         if from[i] != to[i] {
-            dissipated.laws[i] += law.switch_loss(from[i], to[i], &project(law, &motion.q));
+            works.laws[i] += law.switch_loss(from[i], to[i], &project(law, &motion.q));
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::impacts::Impact;
 use crate::law::{Affine, Law, project};
 use crate::method::piecewise_linear::advance::{Certificate, Path, Start, Walk};
 use crate::method::piecewise_linear::phase::{Phase, Workspace};
+use crate::method::piecewise_linear::product::Products;
 use crate::method::piecewise_linear::signal::Signal;
 use crate::number::Plain;
 use crate::problem::Problem;
@@ -40,7 +41,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
         let which = &self.problem.laws[self.law];
         let mut impacts = Vec::new();
         let mut current: Option<Impact> = None;
-        for (number, phase) in phases.list.iter().enumerate() {
+        for phase in &phases.list {
             let contact = which.in_contact(phases.states(*phase)[self.law]);
             if contact && current.is_none() {
                 let [_, speed, _] = self.at(*phase, 0.0);
@@ -52,9 +53,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
                 impacts.push(impact);
             }
             if let Some(impact) = &mut current {
-                let next = phases.list.get(number + 1);
-                let end = next.map_or(self.record.duration, |p| p.start);
-                self.add_phase(*phase, end - phase.start, impact);
+                self.add_phase(*phase, phase.length, impact);
             }
         }
         impacts.extend(current);
@@ -122,9 +121,10 @@ impl<'a, L: Law> ContactReader<'a, L> {
         let phases = &self.record.phases;
         let rate = distance.derivative(phases, phase);
         let (force, rate) = (force.factor(phases, phase), rate.factor(phases, phase));
+        let exponents = &phases.spectra[phase.spectrum].lambda;
         let mut before = 0.0;
         for t in instants {
-            let given = force.integral::<Plain>(&rate, t);
+            let given = Products::new(exponents, t).integral::<Plain>(&force, &rate);
             impact.add_work(given - before);
             before = given;
         }
