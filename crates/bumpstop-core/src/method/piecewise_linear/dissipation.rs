@@ -18,6 +18,7 @@ use super::works::{Powers, Works, damper};
 use crate::law::Law;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
+use std::cell::OnceCell;
 
 /// Squares of coupled rates.
 #[derive(Debug, Clone)]
@@ -178,7 +179,7 @@ impl Dissipation {
     #[inline(always)]
     pub(crate) fn new<I: Instructions, L: Law>(
         problem: &Problem<L>,
-        powers: &Powers,
+        powers: &OnceCell<Powers>,
         spectrum: &Spectrum,
     ) -> Self {
         let mut laws = Vec::with_capacity(problem.laws.len());
@@ -246,13 +247,14 @@ impl Dissipation {
 #[inline(always)]
 fn modal_form<I: Instructions, L: Law>(
     problem: &Problem<L>,
-    powers: &Powers,
+    powers: &OnceCell<Powers>,
     spectrum: &Spectrum,
 ) -> Option<Form> {
     if spectrum.groups == 0 {
         return None;
     }
     if problem.system.coupling().is_some() {
+        let powers = Powers::in_cell(powers, problem);
         return Some(form_of_dampers::<I>(powers, spectrum));
     }
     if spectrum.group_damping.iter().all(|c| *c == 0.0) {

@@ -18,6 +18,7 @@ use crate::number::{Complex, Instructions};
 use crate::problem::Problem;
 use crate::system::{Coupling, ModalSystem};
 use faer::{Mat, Side};
+use std::cell::OnceCell;
 
 /// Energies since the start of a phase, in J.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,9 +73,14 @@ struct Circulation {
 }
 
 impl Powers {
+    /// Those of a problem, found when first asked for: plain dampers do not ask.
+    pub(crate) fn in_cell<'a, L>(cell: &'a OnceCell<Self>, problem: &Problem<L>) -> &'a Self {
+        cell.get_or_init(|| Self::of(&problem.system, &problem.forcing))
+    }
+
     /// Of the damping matrix, whose skew part takes nothing out, of the circulatory one, and of
     /// the loads.
-    pub(crate) fn of(system: &ModalSystem, forcing: &Forcing) -> Self {
+    fn of(system: &ModalSystem, forcing: &Forcing) -> Self {
         let channels = forcing.channels().iter();
         let harmonics = forcing.harmonics().iter().map(|harmonic| {
             let part = |of: fn(&Complex<f64>) -> f64| harmonic.amplitude.iter().map(of).collect();
@@ -168,12 +174,13 @@ impl Meter {
     #[inline(always)]
     pub(crate) fn new<I: Instructions, L: Law>(
         problem: &Problem<L>,
-        powers: &Powers,
+        powers: &OnceCell<Powers>,
         spectrum: &Spectrum,
     ) -> Self {
         if are_dampers(problem, spectrum) {
             return Self::Forms(Dissipation::new::<I, L>(problem, powers, spectrum));
         }
+        let powers = Powers::in_cell(powers, problem);
         let mut combined = Vec::new();
         let mut see = |row: &[f64]| {
             let mut view = View::default();

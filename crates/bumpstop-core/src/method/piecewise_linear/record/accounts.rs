@@ -4,9 +4,10 @@ use super::{Motion, PhaseRecord};
 use crate::energy::{self, Ledger};
 use crate::law::{Law, State, project};
 use crate::method::piecewise_linear::phase::{Phase, Phases, Workspace};
-use crate::method::piecewise_linear::works::{Meter, Powers, Works};
+use crate::method::piecewise_linear::works::{Meter, Works};
 use crate::number::{Instructions, Vectorised};
 use crate::problem::Problem;
+use std::cell::OnceCell;
 
 /// Ledgers at the start of every phase and at the end of the run.
 #[derive(Debug, Clone)]
@@ -20,7 +21,7 @@ pub(super) struct Accounts {
 impl PhaseRecord {
     #[inline(always)]
     fn settle<I: Instructions, L: Law>(&self, problem: &Problem<L>) -> Accounts {
-        let powers = Powers::of(&problem.system, &problem.forcing);
+        let powers = OnceCell::new();
         let phases = &self.phases;
         let count = phases.list.len();
         let mut accounts = Accounts {
