@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from bumpstop.errors import InputError
 from bumpstop.laws import Stop
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.structure.gauge import Gauge
+
+if TYPE_CHECKING:
+    from bumpstop.loads.time import TimeFunction
 
 __all__ = ["InitialState", "Load", "Problem"]
 
@@ -25,14 +28,18 @@ SNAP = 1e-6
 
 @runtime_checkable
 class Load(Protocol):
-    """A force that does not depend on the motion."""
+    """A force that does not depend on the motion: a vector times functions of time."""
 
     @property
     def name(self) -> str:
         """What the load is called."""
 
+    @property
+    def functions(self) -> tuple[TimeFunction, ...]:
+        """The functions of time whose sum it is multiplied by; none where it is constant."""
+
     def modal_force(self, basis: ModalBasis) -> FloatArray:
-        """Return the force on each mode (N,)."""
+        """Return the force on each mode (N,) where the function of time is one."""
 
 
 @runtime_checkable
@@ -60,7 +67,7 @@ class Problem:
     laws
         Its local nonlinearities; names must differ.
     loads
-        Constant forces; names must differ.
+        Forces, constant or changing in time, and motions of the supports; names must differ.
     initial
         State at t = 0; at rest and undeformed where left out.
     duration
@@ -155,6 +162,10 @@ class Problem:
         for load in self.loads:
             with _at(f"loads.{load.name}"):
                 load.modal_force(self.basis)
+                if load.functions:
+                    from bumpstop.loads.time import check_span
+
+                    check_span(load.functions, self.duration)
         for gauge in self.gauges:
             with _at(f"gauges.{gauge.name}"):
                 self.basis.gauge_row(gauge)

@@ -14,6 +14,7 @@ from bumpstop.io.case.tables.structure import StructureTables
 
 # What a case need not have is loaded with those that have it.
 if TYPE_CHECKING:
+    from bumpstop.io.case.tables.base_motion import BaseMotionTable
     from bumpstop.io.case.tables.components import ComponentTable
     from bumpstop.io.case.tables.joints import JointTable
     from bumpstop.io.case.tables.loads import LoadTable
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.outputs import OutputTable
     from bumpstop.io.case.tables.parts import PartTable
 else:
+    BaseMotionTable = later("base_motion", "BaseMotionTable")
     ComponentTable = later("components", "ComponentTable")
     JointTable = later("joints", "JointTable")
     LoadTable = later("loads", "LoadTable")
@@ -61,6 +63,9 @@ class CaseFile(StructureTables):
     basis: BasisTable = Field(description="Modes of the structure")
     stops: dict[Name, StopTable] = Field(default={}, description="Stops, by name")
     loads: dict[Name, LoadTable] = Field(default={}, description="Loads, by name")
+    base_motion: BaseMotionTable | None = Field(
+        default=None, description="How the supports move, all together"
+    )
     initial: InitialTable | None = Field(default=None, description="The state at t = 0")
     gauges: dict[Name, GaugeTable] = Field(default={}, description="Strain gauges, by name")
     outputs: list[OutputTable] = Field(default=[], description="More motions to write to files")
