@@ -8,6 +8,7 @@ use bumpstop_core::method::{Method, simulate};
 use bumpstop_core::number::{Dual, Number};
 use bumpstop_core::problem::Problem;
 use bumpstop_core::system::ModalSystem;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A stop that pushes more than its stored energy accounts for.
@@ -21,7 +22,7 @@ impl Law for Corrupted {
     fn rows(&self) -> &[Vec<f64>] {
         self.stop.rows()
     }
-    fn state_name(&self, state: State) -> &'static str {
+    fn state_name(&self, state: State) -> Cow<'static, str> {
         self.stop.state_name(state)
     }
     fn initial_state(&self, motion: &LocalMotion) -> State {

@@ -12,6 +12,7 @@ use bumpstop_core::problem::Problem;
 use bumpstop_core::system::ModalSystem;
 use flow::Equations;
 use proptest::prelude::*;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A law that never switches: one piece.
@@ -25,8 +26,8 @@ impl Law for Constant {
     fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }
-    fn state_name(&self, _: State) -> &'static str {
-        "constant"
+    fn state_name(&self, _: State) -> Cow<'static, str> {
+        "constant".into()
     }
     fn initial_state(&self, _: &LocalMotion) -> State {
         State::FIRST

@@ -9,6 +9,7 @@ use bumpstop_core::method::{Method, simulate};
 use bumpstop_core::number::Number;
 use bumpstop_core::problem::Problem;
 use bumpstop_core::system::ModalSystem;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A stop before the first of three modes, and forces on all of them that no ledger hears of.
@@ -39,7 +40,7 @@ impl Law for Tampered {
     fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }
-    fn state_name(&self, state: State) -> &'static str {
+    fn state_name(&self, state: State) -> Cow<'static, str> {
         self.stop.state_name(state)
     }
     fn initial_state(&self, motion: &LocalMotion) -> State {

@@ -1,9 +1,8 @@
 //! What a problem is made of.
 
 use crate::core_error;
-use bumpstop_core::forcing::{self, Beyond, Table};
 use bumpstop_core::{law, system};
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 /// `q'' + (diag(damping) + coupling) q' + (diag(omega2) + circulatory) q = f`, unit modal mass.
@@ -34,52 +33,6 @@ impl System {
     }
 }
 
-/// Modal forces as functions of time: constant ones, and vectors times polynomials, harmonics and
-/// tables.
-#[pyclass(frozen, module = "bumpstop._core")]
-pub struct Forcing(pub forcing::Forcing);
-
-type Column<'py> = PyReadonlyArray1<'py, f64>;
-
-#[pymethods]
-impl Forcing {
-    /// Polynomials are (direction, coefficients), harmonics (omega, cosine, sine), tables
-    /// (direction, times, values, whether the values at its ends hold beyond them).
-    #[new]
-    #[pyo3(signature = (constant, polynomials=Vec::new(), harmonics=Vec::new(), tables=Vec::new()))]
-    #[allow(clippy::needless_pass_by_value)] // mirrors the Python signature
-    fn new(
-        constant: Column<'_>,
-        polynomials: Vec<(Column<'_>, Column<'_>)>,
-        harmonics: Vec<(f64, Column<'_>, Column<'_>)>,
-        tables: Vec<(Column<'_>, Column<'_>, Column<'_>, bool)>,
-    ) -> PyResult<Self> {
-        let build = || {
-            let mut forcing = forcing::Forcing::constant(values(&constant))?;
-            for (direction, coefficients) in &polynomials {
-                forcing = forcing.with_polynomial(values(direction), values(coefficients))?;
-            }
-            for (omega, cosine, sine) in &harmonics {
-                forcing = forcing.with_harmonic(*omega, &values(cosine), &values(sine))?;
-            }
-            for (direction, times, knots, holds) in &tables {
-                let beyond = if *holds { Beyond::Hold } else { Beyond::Zero };
-                let table = Table::new(values(times), values(knots), beyond)?;
-                forcing = forcing.with_table(values(direction), table)?;
-            }
-            Ok(forcing)
-        };
-        build().map(Self).map_err(core_error)
-    }
-
-    /// The modal forces at a time.
-    fn at<'py>(&self, py: Python<'py>, time: f64) -> Bound<'py, PyArray1<f64>> {
-        let mut forces = self.0.forces().to_vec();
-        self.0.at(time, &mut forces);
-        forces.into_pyarray(py)
-    }
-}
-
 /// A unilateral spring and damper at distance `d = gap + row . q`.
 #[pyclass(frozen, module = "bumpstop._core")]
 pub struct Stop(pub law::Stop);
@@ -94,17 +47,69 @@ impl Stop {
     }
 }
 
+/// A stop that rubs along the coordinate `tangent . q`.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct FrictionStop(pub law::FrictionStop);
+
+#[pymethods]
+impl FrictionStop {
+    #[new]
+    fn new(
+        normal: PyRef<'_, Stop>,
+        tangent: PyReadonlyArray1<f64>,
+        static_coefficient: f64,
+        dynamic_coefficient: f64,
+        stiffness: f64,
+        damping: f64,
+    ) -> PyResult<Self> {
+        let friction = law::Friction {
+            static_coefficient,
+            dynamic_coefficient,
+            stiffness,
+            damping,
+        };
+        law::FrictionStop::new(normal.0.clone(), values(&tangent), friction)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
+/// A multilinear elastic spring of deformation `row . q`.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct Spring(pub law::Spring);
+
+#[pymethods]
+impl Spring {
+    #[new]
+    fn new(
+        row: PyReadonlyArray1<f64>,
+        breaks: PyReadonlyArray1<f64>,
+        stiffness: PyReadonlyArray1<f64>,
+        preload: f64,
+        damping: f64,
+    ) -> PyResult<Self> {
+        let (breaks, stiffness) = (values(&breaks), values(&stiffness));
+        law::Spring::new(values(&row), breaks, &stiffness, preload, damping)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
 /// A law of any kind, as Python hands it over.
 #[derive(FromPyObject)]
 pub enum LawPart<'py> {
     Stop(PyRef<'py, Stop>),
+    FrictionStop(PyRef<'py, FrictionStop>),
+    Spring(PyRef<'py, Spring>),
 }
 
 impl LawPart<'_> {
     /// The core's law.
     pub fn law(&self) -> law::AnyLaw {
         match self {
-            Self::Stop(stop) => stop.0.clone().into(),
+            Self::Stop(law) => law.0.clone().into(),
+            Self::FrictionStop(law) => law.0.clone().into(),
+            Self::Spring(law) => law.0.clone().into(),
         }
     }
 }

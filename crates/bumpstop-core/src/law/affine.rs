@@ -1,6 +1,6 @@
 //! Affine functions of a law's local motion, and powers made of them.
 
-use super::{COORDINATES, Local};
+use super::{COORDINATES, Local, LocalMotion};
 use crate::number::Number;
 
 /// `constant + position . x + velocity . x' + acceleration . x''` of the local coordinates x.
@@ -52,6 +52,28 @@ impl Affine {
         }
     }
 
+    /// The sum of two functions.
+    pub fn plus(&self, other: &Self) -> Self {
+        let sum = |a: &Local<f64>, b: &Local<f64>| std::array::from_fn(|i| a[i] + b[i]);
+        Self {
+            constant: self.constant + other.constant,
+            position: sum(&self.position, &other.position),
+            velocity: sum(&self.velocity, &other.velocity),
+            acceleration: sum(&self.acceleration, &other.acceleration),
+        }
+    }
+
+    /// Its time derivative, for functions without acceleration.
+    pub fn derivative(&self) -> Self {
+        debug_assert!(self.acceleration == [0.0; COORDINATES]);
+        Self {
+            constant: 0.0,
+            position: [0.0; COORDINATES],
+            velocity: self.position,
+            acceleration: self.velocity,
+        }
+    }
+
     /// Whether it asks for a local coordinate or its derivatives.
     #[inline(always)]
     pub fn sees(&self, number: usize) -> bool {
@@ -71,6 +93,31 @@ impl Affine {
         total
     }
 
+    /// Its value at an instant, and the size below which that counts as zero.
+    pub fn value(&self, motion: &LocalMotion) -> (f64, f64) {
+        self.term(0, motion)
+    }
+
+    /// Its value and its first two derivatives, for functions without acceleration, each with the
+    /// size below which it counts as zero.
+    pub fn series(&self, motion: &LocalMotion) -> [(f64, f64); 3] {
+        std::array::from_fn(|order| self.term(order, motion))
+    }
+
+    fn term(&self, order: usize, motion: &LocalMotion) -> (f64, f64) {
+        let constant = if order == 0 { self.constant } else { 0.0 };
+        let (mut value, mut zero) = (constant, f64::EPSILON * constant.abs());
+        let factors = [&self.position, &self.velocity, &self.acceleration];
+        let known = (motion.derivatives.iter().zip(motion.zero)).skip(order);
+        for (factors, (derivatives, size)) in factors.into_iter().zip(known) {
+            for (factor, derivative) in factors.iter().zip(derivatives) {
+                value += factor * derivative;
+                zero += factor.abs() * size;
+            }
+        }
+        (value, zero)
+    }
+
     /// All factors in a row, the constant first.
     fn flat(&self) -> [f64; 1 + 3 * COORDINATES] {
         let mut all = [0.0; 1 + 3 * COORDINATES];
@@ -80,15 +127,25 @@ impl Affine {
         all
     }
 
-    /// Whether another function is the same up to a factor.
+    /// Whether another function is the same up to a factor and rounding.
     pub fn is_multiple_of(&self, other: &Self) -> bool {
         let (a, b) = (self.flat(), other.flat());
         let Some(pivot) = (0..a.len()).rev().find(|&i| a[i] != 0.0) else {
             return false;
         };
-        b[pivot] != 0.0 && (0..a.len()).all(|i| a[i] * b[pivot] == b[i] * a[pivot])
+        let alike = |x: f64, y: f64| (x - y).abs() <= ALIKE * x.abs().max(y.abs());
+        b[pivot] != 0.0 && (0..a.len()).all(|i| alike(a[i] * b[pivot], b[i] * a[pivot]))
+    }
+
+    /// Whether the rate of this function is another one up to a factor, so that it turns where
+    /// the other is zero.
+    pub fn rises_with(&self, other: &Self) -> bool {
+        self.acceleration == [0.0; COORDINATES] && self.derivative().is_multiple_of(other)
     }
 }
+
+/// Factors of two functions are alike if they differ by no more than this part of them.
+const ALIKE: f64 = 1e-14;
 
 /// The most products that a power is made of.
 const MOST_PRODUCTS: usize = 4;
@@ -122,6 +179,16 @@ impl Power {
         }
         let rate = Affine::rate(number);
         Self::of(&[(rate.times(damping), rate)])
+    }
+
+    /// The sum of two powers.
+    pub fn plus(&self, other: &Self) -> Self {
+        let mut sum = *self;
+        for product in other.products() {
+            sum.products[sum.count] = *product;
+            sum.count += 1;
+        }
+        sum
     }
 
     /// Its products.

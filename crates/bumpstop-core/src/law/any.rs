@@ -1,18 +1,35 @@
 //! Any of the laws, so that a problem can have several kinds.
 
-use super::{Guard, Law, Local, LocalMotion, Piece, Power, State, Stop};
+use super::{FrictionStop, Guard, Law, Local, LocalMotion, Piece, Power, Spring, State, Stop};
 use crate::number::Number;
+use std::borrow::Cow;
 
 /// A law of any kind; each does its own work.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AnyLaw {
     /// A unilateral spring and damper.
     Stop(Stop),
+    /// The same with friction along one direction.
+    FrictionStop(FrictionStop),
+    /// A multilinear elastic spring.
+    Spring(Spring),
 }
 
 impl From<Stop> for AnyLaw {
-    fn from(stop: Stop) -> Self {
-        Self::Stop(stop)
+    fn from(law: Stop) -> Self {
+        Self::Stop(law)
+    }
+}
+
+impl From<FrictionStop> for AnyLaw {
+    fn from(law: FrictionStop) -> Self {
+        Self::FrictionStop(law)
+    }
+}
+
+impl From<Spring> for AnyLaw {
+    fn from(law: Spring) -> Self {
+        Self::Spring(law)
     }
 }
 
@@ -21,8 +38,34 @@ macro_rules! ask {
     ($self:ident, $law:ident => $answer:expr) => {
         match $self {
             Self::Stop($law) => $answer,
+            Self::FrictionStop($law) => $answer,
+            Self::Spring($law) => $answer,
         }
     };
+}
+
+/// What steps ask for at every step stands apart for all laws but the plainest, so that these do
+/// not crowd its loop.
+impl AnyLaw {
+    #[inline(never)]
+    fn sampled_apart(
+        &self,
+        previous: State,
+        position: &Local<f64>,
+        velocity: &Local<f64>,
+    ) -> State {
+        ask!(self, law => law.sampled_state(previous, position, velocity))
+    }
+
+    #[inline(never)]
+    fn force_apart<T: Number>(
+        &self,
+        state: State,
+        position: &Local<T>,
+        velocity: &Local<T>,
+    ) -> Local<T> {
+        ask!(self, law => law.force(state, position, velocity))
+    }
 }
 
 impl Law for AnyLaw {
@@ -31,7 +74,7 @@ impl Law for AnyLaw {
         ask!(self, law => law.rows())
     }
 
-    fn state_name(&self, state: State) -> &'static str {
+    fn state_name(&self, state: State) -> Cow<'static, str> {
         ask!(self, law => law.state_name(state))
     }
 
@@ -46,12 +89,18 @@ impl Law for AnyLaw {
         position: &Local<f64>,
         velocity: &Local<f64>,
     ) -> State {
-        ask!(self, law => law.sampled_state(previous, position, velocity))
+        match self {
+            Self::Stop(law) => law.sampled_state(previous, position, velocity),
+            other => other.sampled_apart(previous, position, velocity),
+        }
     }
 
     #[inline(always)]
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
-        ask!(self, law => law.force(state, position, velocity))
+        match self {
+            Self::Stop(law) => law.force(state, position, velocity),
+            other => other.force_apart(state, position, velocity),
+        }
     }
 
     fn piece(&self, state: State) -> Option<Piece> {

@@ -8,15 +8,20 @@
 
 mod affine;
 mod any;
+mod friction_stop;
+mod spring;
 mod state;
 mod stop;
 
 pub use affine::{Affine, Power};
 pub use any::AnyLaw;
+pub use friction_stop::{Friction, FrictionStop};
+pub use spring::Spring;
 pub use state::{LocalMotion, State};
 pub use stop::Stop;
 
 use crate::number::Number;
+use std::borrow::Cow;
 
 /// The most local coordinates that a law can have (normal and two tangential ones).
 pub const COORDINATES: usize = 3;
@@ -101,7 +106,7 @@ pub trait Law: Clone + Send + Sync {
     fn rows(&self) -> &[Vec<f64>];
 
     /// The name of a state.
-    fn state_name(&self, state: State) -> &'static str;
+    fn state_name(&self, state: State) -> Cow<'static, str>;
 
     /// The state at the start of a run, from the local motion while the law does not act.
     fn initial_state(&self, motion: &LocalMotion) -> State;

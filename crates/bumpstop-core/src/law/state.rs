@@ -38,6 +38,15 @@ pub struct LocalMotion {
 }
 
 impl LocalMotion {
+    /// A motion of which only position and velocity are known, to the last digit.
+    pub fn of(position: Local<f64>, velocity: Local<f64>) -> Self {
+        let still = [0.0; COORDINATES];
+        Self {
+            derivatives: [position, velocity, still, still],
+            zero: [0.0; 4],
+        }
+    }
+
     /// Position.
     pub fn position(&self) -> &Local<f64> {
         &self.derivatives[0]

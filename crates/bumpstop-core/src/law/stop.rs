@@ -9,6 +9,7 @@ use super::{Affine, Guard, Law, Local, LocalMotion, Piece, Power, State};
 use crate::error::{Error, Result, check_finite};
 use crate::number::Number;
 use crate::obstacle::Plane;
+use std::borrow::Cow;
 
 /// A unilateral spring and damper on a plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +57,11 @@ impl Stop {
         })
     }
 
+    /// Distance at rest, in m.
+    pub fn gap(&self) -> f64 {
+        self.obstacle.gap
+    }
+
     /// `-k d - c d'`, the force before it is cut off at zero.
     #[inline(always)]
     fn push<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> T {
@@ -100,8 +106,8 @@ impl Law for Stop {
         &self.rows
     }
 
-    fn state_name(&self, state: State) -> &'static str {
-        ["open", "closed", "released"][state.number as usize]
+    fn state_name(&self, state: State) -> Cow<'static, str> {
+        ["open", "closed", "released"][state.number as usize].into()
     }
 
     fn initial_state(&self, motion: &LocalMotion) -> State {

@@ -10,11 +10,11 @@
 use super::Observer;
 use super::fixed_step::{
     ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step,
-    check_uncoupled, coupling, highest_frequency, laws_damping, modal, pushed,
+    check_uncoupled, coupling, first_state, highest_frequency, laws_damping, modal, pushed,
 };
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, State, project};
+use crate::law::{COORDINATES, Law, Local, project};
 use crate::number::{Instructions, Lanes, Number, dispatch};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
@@ -85,7 +85,7 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
     /// modes of the two steps before and the forces alone,
     /// `x[n+1] = (row own) . q[n] + (row past) . q[n-1] + (row gain) . (p + row f)`.
     #[inline(always)]
-    fn march<I: Instructions, B: Count, A: Count, const CHANGING: bool>(self) -> Result<()> {
+    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()> {
         let Self {
             problem,
             record,
@@ -110,7 +110,7 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
         let contacts = contacts.as_mut();
         let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
         let forces = forces.as_mut();
-        let mut seen = A::make(laws.len(), |_| State::FIRST);
+        let mut seen = A::make(laws.len(), |i| first_state(laws[i], problem));
         let seen = seen.as_mut();
         let mut before = modal::<I, B>(&initial);
         let mut q = modal::<I, B>(&problem.displacement);
@@ -120,7 +120,7 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
-                if CHANGING {
+                if let Some(changing) = &mut changing {
                     let now = changing.next();
                     for (load, now) in load.as_mut().iter_mut().zip(now) {
                         *load = Lanes::of_block(now);
@@ -243,11 +243,7 @@ fn displacement_before<L: Law>(problem: &Problem<L>, dt: f64) -> Vec<f64> {
     let [mut forces, _] = problem.forcing.at_start();
     for law in &problem.laws {
         let (position, rate) = (project(law, q), project(law, v));
-        let force = law.force(
-            law.sampled_state(State::FIRST, &position, &rate),
-            &position,
-            &rate,
-        );
+        let force = law.force(first_state(law, problem), &position, &rate);
         for (row, f) in law.rows().iter().zip(force) {
             for (total, r) in forces.iter_mut().zip(row) {
                 *total += r * f;

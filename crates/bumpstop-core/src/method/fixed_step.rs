@@ -5,7 +5,7 @@ use super::observe;
 use crate::error::{Error, Result};
 use crate::forcing::Forcing;
 use crate::history::Event;
-use crate::law::{COORDINATES, Law, Local, State, project};
+use crate::law::{COORDINATES, Law, Local, LocalMotion, State, project};
 use crate::number::{Block, Instructions, LANES, Lanes, Vectorised, blocks};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
@@ -188,9 +188,7 @@ impl StepRecord {
     pub(crate) fn events<L: Law>(&self, problem: &Problem<L>) -> Vec<Event> {
         let mut events = Vec::new();
         for (index, law) in problem.laws.iter().enumerate() {
-            let position = project(law, &problem.displacement);
-            let velocity = project(law, &problem.velocity);
-            let mut before = law.sampled_state(State::FIRST, &position, &velocity);
+            let mut before = first_state(law, problem);
             for (n, after) in self
                 .states
                 .chunks_exact(self.laws)
@@ -224,6 +222,14 @@ impl StepRecord {
             time: (first - 1) as f64 * self.dt,
         })
     }
+}
+
+/// The state of a law at t = 0.
+pub(crate) fn first_state<L: Law>(law: &L, problem: &Problem<L>) -> State {
+    let position = project(law, &problem.displacement);
+    let velocity = project(law, &problem.velocity);
+    let before = law.initial_state(&LocalMotion::of(position, velocity));
+    law.sampled_state(before, &position, &velocity)
 }
 
 /// Refuses a system whose modes are coupled: the schemes carry each by itself.
@@ -322,15 +328,15 @@ pub(crate) struct ChangingLoads<'a> {
 }
 
 impl<'a> ChangingLoads<'a> {
-    /// The modal forces of a problem, each times its gain.
-    pub(crate) fn new(forcing: &'a Forcing, dt: f64, gain: &'a [f64]) -> Self {
-        Self {
+    /// The modal forces of a problem, each times its gain; `None` where they do not change.
+    pub(crate) fn new(forcing: &'a Forcing, dt: f64, gain: &'a [f64]) -> Option<Self> {
+        forcing.varies().then(|| Self {
             forcing,
             dt,
             gain,
             step: 0,
             forces: blocks(gain),
-        }
+        })
     }
 
     /// Those of the next step, the first one at t = 0.
@@ -347,8 +353,8 @@ impl<'a> ChangingLoads<'a> {
 
 /// A march through time, compiled anew for the usual sizes of problems.
 pub(crate) trait March<L: Law> {
-    /// The march for `B` blocks of modes and `A` laws, under loads that change in time or not.
-    fn march<I: Instructions, B: Count, A: Count, const CHANGING: bool>(self) -> Result<()>;
+    /// The march for `B` blocks of modes and `A` laws.
+    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()>;
 }
 
 /// Chooses the counts of a march.
@@ -361,14 +367,11 @@ impl<L: Law, M: March<L>> Vectorised for Sized<'_, L, M> {
     type Output = Result<()>;
     #[inline(always)]
     fn run<I: Instructions>(self) -> Result<()> {
-        if self.problem.forcing.varies() {
-            return self.march.march::<I, Any, Any, true>();
-        }
         let blocks = self.problem.system.modes().div_ceil(LANES);
         match (blocks, self.problem.laws.len()) {
-            (1, 1) => self.march.march::<I, Fixed<1>, Fixed<1>, false>(),
-            (2, 1) => self.march.march::<I, Fixed<2>, Fixed<1>, false>(),
-            _ => self.march.march::<I, Any, Any, false>(),
+            (1, 1) => self.march.march::<I, Fixed<1>, Fixed<1>>(),
+            (2, 1) => self.march.march::<I, Fixed<2>, Fixed<1>>(),
+            _ => self.march.march::<I, Any, Any>(),
         }
     }
 }

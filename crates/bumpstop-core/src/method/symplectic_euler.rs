@@ -8,11 +8,11 @@
 use super::Observer;
 use super::fixed_step::{
     ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step,
-    check_uncoupled, coupling, highest_frequency, laws_damping, modal, pushed,
+    check_uncoupled, coupling, first_state, highest_frequency, laws_damping, modal, pushed,
 };
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, State, project};
+use crate::law::{COORDINATES, Law, Local, project};
 use crate::number::{Instructions, Lanes, Number, dispatch};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
@@ -63,7 +63,7 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
     /// modes of the step before and the forces alone,
     /// `x' = (row - dt row c) . v - (dt row w2) . q + dt row . (p + row f)`.
     #[inline(always)]
-    fn march<I: Instructions, B: Count, A: Count, const CHANGING: bool>(self) -> Result<()> {
+    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()> {
         let Self {
             problem,
             record,
@@ -86,7 +86,7 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
         let contacts = contacts.as_mut();
         let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
         let forces = forces.as_mut();
-        let mut seen = A::make(laws.len(), |_| State::FIRST);
+        let mut seen = A::make(laws.len(), |i| first_state(laws[i], problem));
         let seen = seen.as_mut();
         let mut q = modal::<I, B>(&problem.displacement);
         let mut v = modal::<I, B>(&problem.velocity);
@@ -98,7 +98,7 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
-                if CHANGING {
+                if let Some(changing) = &mut changing {
                     let now = changing.next();
                     for (load, now) in load.as_mut().iter_mut().zip(now) {
                         *load = Lanes::of_block(now);

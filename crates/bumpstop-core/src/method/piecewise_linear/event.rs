@@ -47,8 +47,13 @@ impl Watch {
                 let signal = &mut self.signals[at];
                 let function = &guard.function;
                 signal.set::<I>(phases, phase, &views[first_view..], function, remaining);
-                let same = fired
-                    .is_some_and(|(law, f)| law == index && f.function.is_multiple_of(function));
+                let before = fired
+                    .filter(|(law, _)| *law == index)
+                    .map(|(_, fired)| fired);
+                if before.is_some_and(|fired| function.rises_with(&fired.function)) {
+                    signal.start_flat(phases, phase);
+                }
+                let same = before.is_some_and(|fired| fired.function.is_multiple_of(function));
                 let zero = same || {
                     let [value, ..] = signal.values_at_start(phases, phase);
                     value.abs() <= signal.rounding(0.0) || value < 0.0

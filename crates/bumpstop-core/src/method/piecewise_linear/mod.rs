@@ -236,7 +236,8 @@ impl<'a, L: Law> Run<'a, L> {
     /// numbers has their matrices, one with their memory their constant forces too.
     #[inline(always)]
     fn spectrum<I: Instructions>(&mut self, states: &[State]) -> Result<usize> {
-        let known = self.phases.spectra.iter().rposition(|s| s.states == states);
+        let problem = self.problem;
+        let known = (self.phases.spectra.iter()).rposition(|s| s.serves(problem, states));
         match known {
             Some(known) => Ok(known),
             None => {

@@ -91,7 +91,7 @@ impl Signal {
         remaining: f64,
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
-        self.polynomial.start(function.constant);
+        self.polynomial = Polynomial::constant(function.constant);
         self.specials.clear();
         self.resonances.clear();
         self.remaining = remaining;
@@ -352,7 +352,7 @@ impl Signal {
             bounds[0] += size;
             bounds[1] += size * (resonant.lambda.norm() + resonant.omega);
         }
-        let p = self.polynomial.terms();
+        let p = self.polynomial.coefficients;
         [
             ROUNDING * (bounds[0] + p[1].abs()),
             ROUNDING * (bounds[1] + 2.0 * p[2].abs()),
@@ -371,6 +371,12 @@ impl Signal {
             pace = pace.max(resonant.omega * resonant.omega);
         }
         pace.sqrt()
+    }
+
+    /// Takes note that the slope at the start is zero, and what is computed of it rounding.
+    pub(crate) fn start_flat(&mut self, phases: &Phases, phase: Phase) {
+        let [_, slope, _] = self.values_at_start(phases, phase);
+        self.at_start[1] -= slope;
     }
 
     /// Value and first two derivatives at the start of the phase.

@@ -151,6 +151,17 @@ impl Spectrum {
         Ok(spectrum)
     }
 
+    /// Whether it is that of the given states: they have its matrices by their numbers, and its
+    /// constant forces unless they remember something else.
+    #[inline(always)]
+    pub(crate) fn serves<L: Law>(&self, problem: &Problem<L>, states: &[State]) -> bool {
+        let both = || self.states.iter().zip(states);
+        both().all(|(own, other)| own.number == other.number)
+            && both().zip(&problem.laws).all(|((own, other), law)| {
+                own.memory == other.memory || law.piece(*own) == law.piece(*other)
+            })
+    }
+
     /// The memory of a spectrum, for another one.
     #[inline(always)]
     fn cleared(mut self) -> Self {
