@@ -43,7 +43,7 @@ def test_lists_become_tuples() -> None:
         ({"sample": 1.1}, "sample", "must not exceed the duration"),
         ({"sample": 1e-7}, "sample", "more than 5,000,000 samples.*take at least 2e-07 s"),
         ({"laws": stop()}, "laws", "must be a list"),
-        ({"laws": ["guide"]}, "laws", "must hold Stops only"),
+        ({"laws": ["guide"]}, "laws", "must hold Laws only"),
         ({"laws": [stop(), stop()]}, "laws", "'guide'"),
         ({"laws": [stop(node="Q")]}, "stops.guide.node", "'Q'"),
         ({"loads": [stop()]}, "loads", "must hold Loads only"),
@@ -97,7 +97,7 @@ def test_default_grid_has_a_thousand_intervals() -> None:
 def test_canonical_form_adds_up_loads() -> None:
     push = [NodalForce(name, node="P", force=(2.0, 0, 0)) for name in ("one", "two")]
     form = canonical_form(Problem(basis(), loads=push, duration=1.0))
-    assert form.forcing.at(0.3).tolist() == [4.0, 1.6]
+    assert form.force.tolist() == [4.0, 1.6]
     assert form.displacement.tolist() == form.velocity.tolist() == [0.0, 0.0]
 
 

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from bumpstop.io.matrices import read_matrices, write_matrices
     from bumpstop.io.meshes import read_mesh
     from bumpstop.io.modes import identify_modes, read_modes
+    from bumpstop.laws.friction import Friction
     from bumpstop.laws.obstacle import Plane
+    from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
-    from bumpstop.loads.base_motion import BaseMotion
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
-    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.modal.certificate import SturmCount
     from bumpstop.modal.damping import RayleighDamping, StructuralDamping
@@ -66,7 +66,6 @@ __version__ = "0.1.0"
 __all__ = [
     "AllModes",
     "Assembly",
-    "BaseMotion",
     "Beam",
     "Bearing",
     "BumpstopError",
@@ -77,10 +76,10 @@ __all__ = [
     "Component",
     "ComputationError",
     "FrequencyResponse",
+    "Friction",
     "Gauge",
     "GeneralSection",
     "Gravity",
-    "Harmonic",
     "InputError",
     "Joint",
     "LowestModes",
@@ -95,7 +94,6 @@ __all__ = [
     "Placed",
     "Plane",
     "PointMass",
-    "Polynomial",
     "Problem",
     "RayleighDamping",
     "Rectangle",
@@ -107,13 +105,13 @@ __all__ = [
     "Rotation",
     "Section",
     "Spring",
+    "SpringLaw",
     "StaticShapes",
     "Stop",
     "StructuralDamping",
     "Structure",
     "SturmCount",
     "Support",
-    "TimeTable",
     "Tube",
     "campbell",
     "complex_modes",
@@ -133,7 +131,6 @@ __all__ = [
 _HOME = {
     "AllModes": "modal.selection",
     "Assembly": "modal.substructure.assembly",
-    "BaseMotion": "loads.base_motion",
     "Beam": "structure.beam",
     "Bearing": "structure.bearing",
     "BumpstopError": "errors",
@@ -144,10 +141,10 @@ _HOME = {
     "Component": "modal.substructure.component",
     "ComputationError": "errors",
     "FrequencyResponse": "modal.frequency_response",
+    "Friction": "laws.friction",
     "Gauge": "structure.gauge",
     "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
-    "Harmonic": "loads.time",
     "InputError": "errors",
     "Joint": "modal.substructure.joint",
     "LowestModes": "modal.selection",
@@ -162,7 +159,6 @@ _HOME = {
     "Placed": "modal.substructure.placed",
     "Plane": "laws.obstacle",
     "PointMass": "structure.mass",
-    "Polynomial": "loads.time",
     "Problem": "problem",
     "RayleighDamping": "modal.damping",
     "Rectangle": "structure.sections.rectangle",
@@ -174,13 +170,13 @@ _HOME = {
     "Rotation": "modal.substructure.rotation",
     "Section": "structure.sections.section",
     "Spring": "structure.spring",
+    "SpringLaw": "laws.spring",
     "StaticShapes": "modal.static_shapes",
     "Stop": "laws.stop",
     "StructuralDamping": "modal.damping",
     "Structure": "structure.structure",
     "SturmCount": "modal.certificate",
     "Support": "structure.support",
-    "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
     "campbell": "modal.rotor",
     "complex_modes": "modal.oscillation",

@@ -1,6 +1,6 @@
 """What the compiled core offers to Python. Arrays are float64 and C-contiguous."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,29 +85,33 @@ class System:
     ) -> None:
         """Take omega2 (N,) and circulatory (N, N) in rad2/s2, the others alike in rad/s."""
 
-class Forcing:
-    """Modal forces over time: constant ones, and vectors (N,) times functions of time."""
-
-    def __init__(
-        self,
-        constant: Array,
-        polynomials: list[tuple[Array, Array]] = [],
-        harmonics: list[tuple[float, Array, Array]] = [],
-        tables: list[tuple[Array, Array, Array, bool]] = [],
-    ) -> None:
-        """Take forces in N per unit modal displacement.
-
-        Polynomials are (direction, coefficients of the powers of time), harmonics (angular
-        frequency in rad/s, amplitudes of cosine and sine), tables (direction, times, values,
-        whether the values at their ends hold beyond them, instead of zero).
-        """
-    def at(self, time: float) -> Array:
-        """Modal forces (N,) at a time in s; just after it where they jump."""
-
 class Stop:
     """A unilateral spring and damper at distance ``d = gap + row . q``."""
 
     def __init__(self, row: Array, gap: float, stiffness: float, damping: float) -> None: ...
+
+class FrictionStop:
+    """A stop that rubs along the coordinate ``tangent . q``, by a spring that can slide."""
+
+    def __init__(
+        self,
+        normal: Stop,
+        tangent: Array,
+        static_coefficient: float,
+        dynamic_coefficient: float,
+        stiffness: float,
+        damping: float,
+    ) -> None: ...
+
+class Spring:
+    """A multilinear elastic spring and a damper of deformation ``row . q``."""
+
+    def __init__(
+        self, row: Array, breaks: Array, stiffness: Array, preload: float, damping: float
+    ) -> None:
+        """Take the stiffness of each segment between breaks, and the force at the origin."""
+
+Law = Stop | FrictionStop | Spring
 
 class History:
     """What a run leaves behind; it can be sampled anywhere in [0, duration]."""
@@ -159,8 +163,8 @@ class History:
 
 def simulate(
     system: System,
-    laws: list[Stop],
-    forcing: Forcing,
+    laws: Sequence[Law],
+    force: Array,
     displacement: Array,
     velocity: Array,
     duration: float,
@@ -169,11 +173,11 @@ def simulate(
     beyond_stability_limit: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> History:
-    """Integrate; releases the GIL.
+    """Integrate. ``force`` is the constant modal force (N,); releases the GIL.
 
     ``method`` is ``exact``, ``symplectic_euler`` or ``central_difference``; the fixed-step
     ones need ``dt``. ``progress`` is called with the fraction done, about ten times a second.
     """
 
-def stability_limit(system: System, laws: list[Stop], method: str) -> float:
+def stability_limit(system: System, laws: Sequence[Law], method: str) -> float:
     """Largest stable step of a fixed-step method with every stop closed, in s."""

@@ -9,16 +9,17 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, all_of, listed, name, positive, refuse_twins
+from bumpstop.arguments import FloatArray, Vector, all_of, listed, name, positive, refuse_twins
 from bumpstop.errors import InputError
-from bumpstop.laws import Stop
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.structure.gauge import Gauge
 
 if TYPE_CHECKING:
-    from bumpstop.loads.time import TimeFunction
+    from bumpstop import _core
+    from bumpstop.laws.coordinate import Coordinate
 
-__all__ = ["InitialState", "Load", "Problem"]
+__all__ = ["InitialState", "Law", "Load", "Problem"]
+
 
 DEFAULT_SAMPLES = 1000
 MOST_SAMPLES = 5_000_000
@@ -27,19 +28,43 @@ SNAP = 1e-6
 
 
 @runtime_checkable
+class Law(Protocol):
+    """A local nonlinearity."""
+
+    @property
+    def name(self) -> str:
+        """What the law is called."""
+
+    @property
+    def table(self) -> str:
+        """Where a problem keeps it, in words for messages."""
+
+    @property
+    def node(self) -> str:
+        """The node that it acts on, the first of several."""
+
+    @property
+    def normal(self) -> Vector:
+        """The direction along which it acts there."""
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """What it sees of the motion."""
+
+    def core(self, basis: ModalBasis) -> _core.Law:
+        """Return it as the core sees it."""
+
+
+@runtime_checkable
 class Load(Protocol):
-    """A force that does not depend on the motion: a vector times functions of time."""
+    """A force that does not depend on the motion."""
 
     @property
     def name(self) -> str:
         """What the load is called."""
 
-    @property
-    def functions(self) -> tuple[TimeFunction, ...]:
-        """The functions of time whose sum it is multiplied by; none where it is constant."""
-
     def modal_force(self, basis: ModalBasis) -> FloatArray:
-        """Return the force on each mode (N,) where the function of time is one."""
+        """Return the force on each mode (N,)."""
 
 
 @runtime_checkable
@@ -50,7 +75,7 @@ class InitialState(Protocol):
         """Return modal displacement and velocity, each (N,)."""
 
 
-PARTS: dict[str, type[Stop | Load | Gauge]] = {"laws": Stop, "loads": Load, "gauges": Gauge}
+PARTS: dict[str, type[Law | Load | Gauge]] = {"laws": Law, "loads": Load, "gauges": Gauge}
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +92,7 @@ class Problem:
     laws
         Its local nonlinearities; names must differ.
     loads
-        Forces, constant or changing in time, and motions of the supports; names must differ.
+        Constant forces; names must differ.
     initial
         State at t = 0; at rest and undeformed where left out.
     duration
@@ -88,6 +113,7 @@ class Problem:
 
     Examples
     --------
+    >>> from bumpstop.laws import Stop
     >>> from bumpstop.loads import ModalState
     >>> from bumpstop.modal.basis import ModalBasis
     >>> basis = ModalBasis.from_modes(frequency=[3.0], damping=[0.01], shapes={("P", "dx"): [1.0]})
@@ -99,7 +125,7 @@ class Problem:
 
     basis: ModalBasis = field(repr=False)
     _: KW_ONLY
-    laws: Sequence[Stop] = ()
+    laws: Sequence[Law] = ()
     loads: Sequence[Load] = ()
     initial: InitialState | None = None
     duration: float
@@ -158,14 +184,10 @@ class Problem:
     def _check_targets(self) -> None:
         for law in self.laws:
             with _at(f"{law.table}.{law.name}"):
-                law.row(self.basis)
+                law.core(self.basis)
         for load in self.loads:
             with _at(f"loads.{load.name}"):
                 load.modal_force(self.basis)
-                if load.functions:
-                    from bumpstop.loads.time import check_span
-
-                    check_span(load.functions, self.duration)
         for gauge in self.gauges:
             with _at(f"gauges.{gauge.name}"):
                 self.basis.gauge_row(gauge)

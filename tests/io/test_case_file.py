@@ -33,10 +33,17 @@ duration = 1.0
 Load = Callable[[str], bs.Case]
 
 
+def _stop(problem: bs.Problem) -> bs.Stop:
+    stop = problem.laws[0]
+    assert isinstance(stop, bs.Stop)
+    return stop
+
+
 def test_defaults(load: Load, tmp_path: Path) -> None:
     case = load(BALL)
     (problem,) = case.problems.values()
     (stop,) = problem.laws
+    assert isinstance(stop, bs.Stop)
     assert list(case.problems) == ["base"]
     assert case.name == case.title == tmp_path.name
     assert case.path == tmp_path / "case.toml"
@@ -115,7 +122,7 @@ def test_variants_share_the_modes_that_they_do_not_change(load: Load) -> None:
         'heavy = { "masses.ball.mass" = "8 kg" }\n'
     )
     soft, same, heavy = (case.problems[name] for name in ("soft", "same", "heavy"))
-    assert [problem.laws[0].stiffness for problem in (soft, same, heavy)] == [1e3, 1e4, 1e4]
+    assert [_stop(problem).stiffness for problem in (soft, same, heavy)] == [1e3, 1e4, 1e4]
     assert soft.basis is same.basis
     assert soft.basis.row("P", "dz").item() == pytest.approx(math.sqrt(1 / 2))
     assert heavy.basis.row("P", "dz").item() == pytest.approx(math.sqrt(1 / 8))
@@ -133,7 +140,7 @@ def test_variants_share_the_modes_that_they_do_not_change(load: Load) -> None:
 )
 def test_ways_to_write_an_override(change: str, load: Load) -> None:
     case = load(f"{BALL}[variants.far]\n{change}\n")
-    assert case.problems["far"].laws[0].gap == 0.5
+    assert _stop(case.problems["far"]).gap == 0.5
 
 
 def test_overrides_reach_into_lists_and_add_tables(load: Load) -> None:

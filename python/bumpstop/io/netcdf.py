@@ -147,12 +147,7 @@ def _outputs(response: Response, motions: list[FloatArray]) -> Iterator[Variable
 
 def _stopped(response: Response) -> list[Dof]:
     """Return the dofs along which the stops push."""
-    return [
-        (law.node, dof)
-        for law in response.problem.laws
-        for dof, component in zip(TRANSLATIONS, law.normal, strict=True)
-        if component != 0.0
-    ]
+    return [dof for law in response.problem.laws for dof in law.coordinate.dofs]
 
 
 def _plain(name: str) -> str:

@@ -1,6 +1,24 @@
 """Local laws: the few places where the structure is not linear."""
 
-from bumpstop.laws.obstacle import Plane
-from bumpstop.laws.stop import Stop
+from __future__ import annotations
 
-__all__ = ["Plane", "Stop"]
+from typing import TYPE_CHECKING
+
+from bumpstop.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from bumpstop.laws.friction import Friction
+    from bumpstop.laws.obstacle import Plane
+    from bumpstop.laws.spring import SpringLaw
+    from bumpstop.laws.stop import Stop
+
+__all__ = ["Friction", "Plane", "SpringLaw", "Stop"]
+
+_HOME = {
+    "Friction": "friction",
+    "Plane": "obstacle",
+    "SpringLaw": "spring",
+    "Stop": "stop",
+}
+
+__getattr__ = lazy_names(__name__, _HOME)

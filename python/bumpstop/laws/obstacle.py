@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, finite, vector
-from bumpstop.errors import InputError
+from bumpstop.arguments import FloatArray, Vector, finite
+from bumpstop.laws.coordinate import unit
 
 __all__ = ["Plane"]
 
@@ -44,17 +43,9 @@ class Plane:
     gap: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "normal", _unit("normal", self.normal))
+        object.__setattr__(self, "normal", unit("normal", self.normal))
         object.__setattr__(self, "gap", finite("gap", self.gap))
 
     def distance(self, displacement: FloatArray | list[float]) -> FloatArray:
         """Return ``gap + normal . displacement`` in m, for displacements (..., 3) in m."""
         return np.asarray(self.gap + np.asarray(displacement) @ np.asarray(self.normal))
-
-
-def _unit(key: str, value: object) -> Vector:
-    x, y, z = vector(key, value)
-    length = math.hypot(x, y, z)
-    if length == 0.0:
-        raise InputError("must not be the zero vector", key=key, value=value)
-    return (x / length, y / length, z / length)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from bumpstop.arguments import FloatArray, Vector, name, not_negative, one_of, positive
+from bumpstop.arguments import FloatArray, Vector, finite, name, not_negative, one_of, positive
 from bumpstop.errors import InputError
-from bumpstop.laws.obstacle import Plane
-from bumpstop.projection import direction_row
+from bumpstop.laws.coordinate import Coordinate, Terms, unit
 
 if TYPE_CHECKING:
+    from bumpstop import _core
+    from bumpstop.laws.friction import Friction
     from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["Stop"]
@@ -22,9 +24,15 @@ OBSTACLES = ("plane",)
 class Stop:
     """A spring and damper that push a node back once it has crossed the gap.
 
-    With the distance ``d = gap + normal . u`` of the node's displacement u, the stop pushes
-    along its normal with ``F = max(0, -stiffness d - damping d')`` while d < 0, and not at
-    all while d > 0. It never pulls: with damping the force vanishes before the gap opens.
+    With the distance ``d = gap + normal . (u - u_other)`` of the displacements u of the node
+    and of the other one, which is zero for a fixed obstacle, the stop pushes along its normal
+    with ``F = max(0, -stiffness d - damping d')`` while d < 0, and not at all while d > 0. It
+    never pulls: with damping the force vanishes before the gap opens.
+
+    With friction a spring and a slider act along the obstacle, on the motion x: while the slider
+    sticks at its anchor, which is where contact began, with the force ``-tangential_stiffness
+    (x - anchor) - tangential_damping x'``. It breaks loose when that exceeds ``static F``, and
+    then resists with ``dynamic F`` until it stops.
 
     Parameters
     ----------
@@ -35,6 +43,11 @@ class Stop:
     normal
         Direction along which the obstacle pushes the structure, in global axes; any length
         but zero, kept as a unit vector.
+    other
+        A node that carries the obstacle: the stop acts between the two.
+    terms
+        Instead of node, normal and other: the weight of each (node, dof) in the distance, such
+        as ``{("pinion", "drz"): 0.05, ("wheel", "drz"): 0.08}`` for the backlash of gears.
     gap
         Distance in m to the obstacle where the structure is undeformed; a negative gap is a
         stop that presses already.
@@ -44,11 +57,21 @@ class Stop:
         Contact damping in N s/m.
     obstacle
         Shape of the obstacle: ``"plane"``.
+    friction
+        Coefficient of friction, or ``{"static": ..., "dynamic": ...}``.
+    sliding
+        Direction along the obstacle in which it rubs, or weights of dofs as in ``terms``; may be
+        left out where the modes move the node in one direction only along the obstacle.
+    tangential_stiffness
+        Stiffness in N/m of the stick, for friction.
+    tangential_damping
+        Damping in N s/m of the stick.
 
     Raises
     ------
     InputError
-        If a number is out of its range, the normal has no length, or the obstacle is unknown.
+        If a number is out of its range, the normal has no length, the obstacle is unknown, or
+        what belongs to friction is there without it.
 
     References
     ----------
@@ -65,34 +88,117 @@ class Stop:
 
     name: str
     _: KW_ONLY
-    node: str
-    normal: Vector
+    node: str = None  # type: ignore[assignment]  # told by the terms where it is left out
+    normal: Vector = None  # type: ignore[assignment]  # as the node
+    other: str | None = None
+    terms: Terms | None = None
     gap: float = 0.0
     stiffness: float
     damping: float = 0.0
     obstacle: str = "plane"
+    friction: float | Mapping[str, float] | Friction | None = None
+    sliding: Vector | Terms | None = None
+    tangential_stiffness: float | None = None
+    tangential_damping: float = 0.0
 
     def __post_init__(self) -> None:
         name("name", self.name)
-        name("node", self.node)
         one_of("obstacle", self.obstacle, OBSTACLES)
-        plane = Plane(self.normal, self.gap)
-        object.__setattr__(self, "normal", plane.normal)
-        object.__setattr__(self, "gap", plane.gap)
+        contact = Coordinate.of(self.node, "normal", self.normal, self.other, self.terms)
+        object.__setattr__(self, "node", contact.node)
+        object.__setattr__(self, "normal", contact.direction)
+        object.__setattr__(self, "terms", contact.terms)
+        object.__setattr__(self, "gap", finite("gap", self.gap))
         object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
         object.__setattr__(self, "damping", not_negative("damping", self.damping))
+        damping = not_negative("tangential_damping", self.tangential_damping)
+        object.__setattr__(self, "tangential_damping", damping)
+        self._check_friction()
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """The coordinate that its distance is measured along."""
+        return Coordinate(self.node, self.normal, self.other, self.terms)
 
     def row(self, basis: ModalBasis) -> FloatArray:
-        """Return ``normal . shapes`` (N,): distance per unit of each modal displacement.
+        """Return the distance per unit of each modal displacement, (N,).
 
         Raises
         ------
         InputError
-            If the basis has no shape at the node, or none that moves it along the normal.
+            If the basis has no shape at a node, or none that changes the distance.
         """
-        row = direction_row(basis, self.node, self.normal)
+        row = self.coordinate.row(basis)
         if not row.any():
-            raise InputError(
-                "no mode moves this node along the normal", key="node", value=self.node
-            )
+            what = "no mode moves this node along the normal"
+            if self.terms is not None:
+                raise InputError("no mode changes this sum", key="terms", value=self.terms)
+            if self.other is not None:
+                what = "no mode moves these nodes against each other along the normal"
+            raise InputError(what, key="node", value=self.node)
         return row
+
+    def sliding_row(self, basis: ModalBasis) -> FloatArray | None:
+        """Return the motion along the obstacle, (N,); None without friction.
+
+        Raises
+        ------
+        InputError
+            If no mode moves the node along the obstacle, or in more than one direction and
+            none is given.
+        """
+        if self.friction is None:
+            return None
+        from bumpstop.laws.friction import sliding_row
+
+        return sliding_row(basis, self.coordinate, self.sliding)
+
+    def core(self, basis: ModalBasis) -> _core.Stop | _core.FrictionStop:
+        """Return the stop as the core sees it; see `row` and `sliding_row`."""
+        from bumpstop import _core
+
+        stop = _core.Stop(self.row(basis), self.gap, self.stiffness, self.damping)
+        if self.friction is None or self.tangential_stiffness is None:
+            return stop
+        from bumpstop.laws.friction import Friction, sliding_row
+
+        friction = Friction.of(self.friction)
+        return _core.FrictionStop(
+            stop,
+            sliding_row(basis, self.coordinate, self.sliding),
+            friction.static,
+            friction.while_sliding,
+            self.tangential_stiffness,
+            self.tangential_damping,
+        )
+
+    def _check_friction(self) -> None:
+        if self.friction is None:
+            self._refuse_without_friction()
+            return
+        from bumpstop.laws.friction import Friction, tangent
+
+        object.__setattr__(self, "friction", Friction.of(self.friction))
+        if self.tangential_stiffness is None:
+            hint = "a contact that sticks is a spring; take about the contact stiffness"
+            raise InputError("friction needs it", key="tangential_stiffness", hint=hint)
+        stiffness = positive("tangential_stiffness", self.tangential_stiffness)
+        object.__setattr__(self, "tangential_stiffness", stiffness)
+        if isinstance(self.sliding, Mapping):
+            checked = Coordinate.of(None, "sliding", None, terms=self.sliding).terms
+            object.__setattr__(self, "sliding", checked)
+        elif self.sliding is not None:
+            sliding = unit("sliding", self.sliding)
+            tangent(self.normal, sliding)
+            object.__setattr__(self, "sliding", sliding)
+
+    def _refuse_without_friction(self) -> None:
+        given = {
+            "sliding": self.sliding,
+            "tangential_stiffness": self.tangential_stiffness,
+            "tangential_damping": self.tangential_damping or None,
+        }
+        for key, value in given.items():
+            if value is not None:
+                hint = "give the coefficient, friction = 0.2"
+                raise InputError("belongs to friction", key=key, value=value, hint=hint)

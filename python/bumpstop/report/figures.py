@@ -23,6 +23,7 @@ from bumpstop.report.plotting import (
     whole_run,
 )
 from bumpstop.report.scales import power_of_ten, scale_for
+from bumpstop.report.stops import fixed_stops
 from bumpstop.report.words import title_of, unit_of
 
 if TYPE_CHECKING:
@@ -272,6 +273,6 @@ def _contact_places(response: Response, node: str, dof: str) -> list[float]:
         return []
     return [
         -law.gap / law.normal[axis]
-        for law in response.problem.laws
+        for law in fixed_stops(response.problem)
         if law.node == node and abs(abs(law.normal[axis]) - 1.0) < 1e-12
     ]

@@ -8,6 +8,7 @@ import numpy as np
 
 from bumpstop.report.outline import UNSEEN, view_of
 from bumpstop.report.scales import scale_for, with_unit
+from bumpstop.report.stops import fixed_stops
 from bumpstop.report.words import unit_of
 from bumpstop.structure.drawn import DrawnModel
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bumpstop.arguments import FloatArray
+    from bumpstop.laws import Stop
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
     from bumpstop.report.outline import Outline
@@ -49,7 +51,7 @@ def motion_scene(response: Response, watched: tuple[str, str], drawing: Outline)
     modal = response.motion(0, times)
     travel = np.einsum("pam,fm->fpa", drawing.shapes, modal[:: max(len(modal) // 500, 1)])
     reach = np.abs(travel).max(axis=(0, 1))
-    normals = [np.abs(law.normal) * reach.max() for law in problem.laws]
+    normals = [np.abs(stop.normal) * reach.max() for stop in fixed_stops(problem)]
     view = view_of(drawing.positions, np.max([reach, *normals], axis=0))
     furthest = float(np.linalg.norm(travel @ view.T, axis=-1).max())
     drawn = _drawing(drawing, problem.basis, view)
@@ -57,10 +59,11 @@ def motion_scene(response: Response, watched: tuple[str, str], drawing: Outline)
     displacement = response.sample("displacement", *watched, times=times)
     scale = scale_for(unit_of("displacement", watched[1]), displacement)
     clock = scale_for("s", problem.duration)
-    forces = [response.sample("stop_force", law.name, times=times) for law in problem.laws]
+    stops = fixed_stops(problem)
+    forces = [response.sample("stop_force", stop.name, times=times) for stop in stops]
     force = scale_for("N", forces if forces else 0.0)
     return drawn | {
-        "stops": [_stop(law, drawing, view, response) for law in problem.laws],
+        "stops": [_stop(stop, drawing, view, response) for stop in stops],
         "magnifications": _magnifications(extent, furthest),
         "times": times,
         "timeScale": [clock.factor, clock.unit],
@@ -159,7 +162,7 @@ def _away_from(drawing: Outline, view: FloatArray, place: int) -> FloatArray:
     return np.asarray(np.eye(len(view))[0])
 
 
-def _stop(law: Any, drawing: Outline, view: FloatArray, response: Response) -> dict[str, Any]:
+def _stop(law: Stop, drawing: Outline, view: FloatArray, response: Response) -> dict[str, Any]:
     times = response.times
     return {
         "name": law.name,

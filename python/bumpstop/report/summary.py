@@ -6,16 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.loads import (
-    BaseMotion,
-    Gravity,
-    Harmonic,
-    ModalState,
-    NodalForce,
-    Polynomial,
-    RigidRotation,
-    TimeTable,
-)
+from bumpstop.laws import Friction, SpringLaw, Stop
+from bumpstop.loads import Gravity, ModalState, NodalForce, RigidRotation
 from bumpstop.modal.substructure import Assembly
 from bumpstop.report.scales import significant, with_unit
 from bumpstop.structure.sections.rectangle import Rectangle
@@ -24,11 +16,10 @@ from bumpstop.structure.structure import Structure
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from bumpstop.laws import Stop
-    from bumpstop.loads.time import TimeFunction
+    from bumpstop.laws.coordinate import Coordinate
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.modal.substructure import Joint, Placed
-    from bumpstop.problem import InitialState, Load, Problem
+    from bumpstop.problem import InitialState, Law, Load, Problem
     from bumpstop.response import Response
     from bumpstop.structure.beam import Beam
     from bumpstop.structure.bearing import Bearing
@@ -76,7 +67,8 @@ def model_rows(problem: Problem) -> list[Row]:
     """Return the model of a problem, one row a subject, those without content left out."""
     rows = [
         *basis_rows(problem.basis),
-        ("Stops", [_stop(law) for law in problem.laws]),
+        ("Stops", [_stop(law) for law in problem.laws if isinstance(law, Stop)]),
+        ("Laws", [_law(law) for law in problem.laws if not isinstance(law, Stop)]),
         ("Loads", [_load(load) for load in problem.loads]),
         ("Initial state", [_initial(problem.initial)]),
         ("Gauges", [_gauge(gauge) for gauge in problem.gauges]),
@@ -196,9 +188,32 @@ def _stop(law: Stop) -> str:
     gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
     damping = f", {with_unit(law.damping, 'N s/m')}" if law.damping else ", no damping"
     return (
-        f"{law.name}: a {law.obstacle} at {law.node} that pushes along {_vector(law.normal)}, "
-        f"{gap}, {with_unit(law.stiffness, 'N/m')}{damping}"
+        f"{law.name}: a {law.obstacle} {_where(law.coordinate)} that pushes along "
+        f"{_vector(law.normal)}, {gap}, {with_unit(law.stiffness, 'N/m')}{damping}{_friction(law)}"
     )
+
+
+def _friction(law: Stop) -> str:
+    if law.friction is None or law.tangential_stiffness is None:
+        return ""
+    friction = Friction.of(law.friction)
+    static, dynamic = _plain(friction.static), _plain(friction.while_sliding)
+    words = static if static == dynamic else f"{static}, {dynamic} while it slides"
+    return f"; friction {words}, {with_unit(law.tangential_stiffness, 'N/m')} along the obstacle"
+
+
+def _where(along: Coordinate) -> str:
+    if along.terms is not None:
+        return "on " + " + ".join(f"{_plain(w)} {n}.{dof}" for (n, dof), w in along.terms.items())
+    return f"at {along.node}" if along.other is None else f"between {along.node} and {along.other}"
+
+
+def _law(law: Law) -> str:
+    if isinstance(law, SpringLaw):
+        slopes = ", ".join(with_unit(slope, "N/m") for slope in law.stiffness)
+        where = f"{_where(law.coordinate)} along {_vector(law.direction)}"
+        return f"{law.name}: a spring {where}, {slopes}"
+    return law.name
 
 
 def _load(load: Load) -> str:
@@ -207,31 +222,8 @@ def _load(load: Load) -> str:
     if isinstance(load, NodalForce):
         force = _vector(load.force, "N") if any(load.force) else ""
         moment = _vector(load.moment, "N m") if any(load.moment) else ""
-        what = f"{' and '.join(filter(None, [force, moment]))} at {load.node}"
-        return f"{load.name}: {what}{_times(load.functions)}"
-    if isinstance(load, BaseMotion):
-        acceleration = _vector(load.acceleration, "m/s²")
-        return f"{load.name}: acceleration of all supports {acceleration}{_times(load.functions)}"
+        return f"{load.name}: {' and '.join(filter(None, [force, moment]))} at {load.node}"
     return load.name
-
-
-def _times(functions: Sequence[TimeFunction]) -> str:
-    """Say what a load is multiplied by."""
-    return f" times {' + '.join(map(_function, functions))}" if functions else ""
-
-
-def _function(function: TimeFunction) -> str:
-    match function:
-        case Harmonic():
-            turn = f"(2π {_plain(function.frequency)} Hz t)"
-            parts = [("cos", function.cosine), ("sin", function.sine)]
-            told = [f"{_plain(size)} {name}{turn}" for name, size in parts if size]
-            return " + ".join(told) or "0"
-        case Polynomial():
-            return f"a polynomial of degree {len(function.coefficients) - 1}"
-        case TimeTable():
-            first, last = (with_unit(float(function.times[end]), "s") for end in (0, -1))
-            return f"a table of {len(function.times):,} values from {first} to {last}"
 
 
 def _initial(initial: InitialState | None) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.laws import Stop
 from bumpstop.modal.basis import COMBINATION
 from bumpstop.quantities import IMPACTS
 from bumpstop.report.published import deviation_told, tolerance_told, verdict, worst
@@ -195,10 +196,13 @@ def variant_notes(problems: Mapping[str, Problem]) -> dict[str, str]:
     """
     units = {"gap": "m", "stiffness": "N/m", "damping": "N s/m"}
     told: dict[str, list[str]] = {name: [] for name in problems}
-    laws = {name: {law.name: law for law in problem.laws} for name, problem in problems.items()}
+    laws = {
+        name: {law.name: law for law in problem.laws if isinstance(law, Stop)}
+        for name, problem in problems.items()
+    }
     common = set.intersection(*(set(some) for some in laws.values()))
     first = next(iter(problems.values()))
-    for law in [law for law in first.laws if law.name in common]:
+    for law in [law for law in first.laws if law.name in common and isinstance(law, Stop)]:
         for field in fields(law):
             values = {name: getattr(laws[name][law.name], field.name) for name in problems}
             if field.name in units and len(set(values.values())) > 1:

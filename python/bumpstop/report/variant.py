@@ -127,7 +127,7 @@ def watched_places(problem: Problem, references: Sequence[Reference]) -> list[tu
         if reference.quantity == "displacement"
     ]
     places += problem.outputs
-    places += [(law.node, _AXES[int(np.argmax(np.abs(law.normal)))]) for law in problem.laws]
+    places += [law.coordinate.main_dof for law in problem.laws]
     if not places:
         most = np.argmax(np.abs(problem.basis.shapes).sum(axis=1))
         places = [problem.basis.dofs[int(most)]]

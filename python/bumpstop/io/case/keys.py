@@ -46,8 +46,7 @@ def keyed(table: str = "", renamed: Mapping[str, str] | None = None) -> Iterator
     table
         The table whose keys the arguments are; empty where errors name their table already.
     renamed
-        What arguments, or the beginnings of their dotted names, are called in the file; the
-        longest that fits counts.
+        What arguments, or the first parts of their names, are called in the file.
 
     Examples
     --------
@@ -61,13 +60,7 @@ def keyed(table: str = "", renamed: Mapping[str, str] | None = None) -> Iterator
     except InputError as error:
         if error.file:  # of another file, whose keys are not ours
             raise
-        inner = _renamed(error.key or "", renamed or {})
+        first, point, rest = (error.key or "").partition(".")
+        inner = f"{(renamed or {}).get(first, first)}{point}{rest}"
         key = re.sub(_INDEX, r".\1", ".".join(part for part in (table, inner) if part))
         raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error
-
-
-def _renamed(key: str, renamed: Mapping[str, str]) -> str:
-    for old in sorted(renamed, key=len, reverse=True):
-        if key == old or key.startswith(f"{old}."):
-            return renamed[old] + key[len(old) :]
-    return key

@@ -11,6 +11,7 @@ from bumpstop.modal.basis import ModalBasis
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.io.case.tables.stops import StopTable
     from bumpstop.structure.dofs import Place
     from bumpstop.structure.model import LinearModel
 
@@ -59,5 +60,13 @@ def _model(case: CaseFile, folder: Path) -> LinearModel:
 def static_places(case: CaseFile) -> list[Place]:
     """Return where unit forces act whose static shapes join the modes."""
     if isinstance(case.basis.static_shapes, str):
-        return [(stop.node, stop.normal) for stop in case.stops.values()]
+        return [place for stop in case.stops.values() for place in _stop_places(stop)]
     return case.basis.static_shapes
+
+
+def _stop_places(stop: StopTable) -> list[Place]:
+    """Return where a stop pushes; what it lacks is told when the stop is made."""
+    if stop.terms is not None:
+        return [(node, dof) for node, weights in stop.terms.items() for dof in weights]
+    nodes = [node for node in (stop.node, stop.other) if node is not None]
+    return [] if stop.normal is None else [(node, stop.normal) for node in nodes]

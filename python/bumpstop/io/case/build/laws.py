@@ -2,21 +2,57 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bumpstop.io.case.keys import keyed
+from bumpstop.io.case.tables.table import Table
 from bumpstop.laws import Stop
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.io.case.tables.laws import LawTable
+    from bumpstop.laws import SpringLaw
+    from bumpstop.problem import Law
 
 __all__ = ["built_laws"]
 
 
-def built_laws(case: CaseFile) -> list[Stop]:
+def built_laws(case: CaseFile) -> list[Law]:
     """Return the laws that the tables describe."""
-    laws = []
+    laws: list[Law] = []
     for name, table in case.stops.items():
         with keyed(f"stops.{name}"):
-            laws.append(Stop(name, **dict(table)))
+            laws.append(Stop(name, **_given(table)))
+    for name, law in case.laws.items():
+        with keyed(f"laws.{name}"):
+            laws.append(_spring(name, law))
     return laws
+
+
+def _spring(name: str, table: LawTable) -> SpringLaw:
+    from bumpstop.errors import InputError
+    from bumpstop.laws import SpringLaw
+
+    given = _given(table)
+    del given["type"]
+    curve = given.pop("curve", None)
+    if curve is None:
+        if "stiffness" not in given:
+            raise InputError("must have the slopes of its segments, or a curve", key="stiffness")
+        return SpringLaw(name, **given)
+    for key in ("stiffness", "breaks", "preload"):
+        if key in given:
+            raise InputError("is told by the curve already", key=key, value=given[key])
+    return SpringLaw.through(curve, name, **given)
+
+
+def _given(table: Table) -> dict[str, Any]:
+    """Return the keys that have a value, the terms as weights by node and dof."""
+    given = {key: value for key, value in table if value is not None}
+    if "terms" in given:
+        given["terms"] = {
+            (node, dof): weight
+            for node, weights in given["terms"].items()
+            for dof, weight in weights.items()
+        }
+    return given

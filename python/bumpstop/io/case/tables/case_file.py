@@ -14,9 +14,9 @@ from bumpstop.io.case.tables.structure import StructureTables
 
 # What a case need not have is loaded with those that have it.
 if TYPE_CHECKING:
-    from bumpstop.io.case.tables.base_motion import BaseMotionTable
     from bumpstop.io.case.tables.components import ComponentTable
     from bumpstop.io.case.tables.joints import JointTable
+    from bumpstop.io.case.tables.laws import LawTable
     from bumpstop.io.case.tables.loads import LoadTable
     from bumpstop.io.case.tables.matrices import MatricesTable
     from bumpstop.io.case.tables.mesh import MeshTable
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.outputs import OutputTable
     from bumpstop.io.case.tables.parts import PartTable
 else:
-    BaseMotionTable = later("base_motion", "BaseMotionTable")
     ComponentTable = later("components", "ComponentTable")
     JointTable = later("joints", "JointTable")
+    LawTable = later("laws", "LawTable")
     LoadTable = later("loads", "LoadTable")
     MatricesTable = later("matrices", "MatricesTable")
     MeshTable = later("mesh", "MeshTable")
@@ -62,10 +62,10 @@ class CaseFile(StructureTables):
     joints: list[JointTable] = Field(default=[], description="Where parts hang together")
     basis: BasisTable = Field(description="Modes of the structure")
     stops: dict[Name, StopTable] = Field(default={}, description="Stops, by name")
-    loads: dict[Name, LoadTable] = Field(default={}, description="Loads, by name")
-    base_motion: BaseMotionTable | None = Field(
-        default=None, description="How the supports move, all together"
+    laws: dict[Name, LawTable] = Field(
+        default={}, description="Local nonlinearities other than stops, by name"
     )
+    loads: dict[Name, LoadTable] = Field(default={}, description="Loads, by name")
     initial: InitialTable | None = Field(default=None, description="The state at t = 0")
     gauges: dict[Name, GaugeTable] = Field(default={}, description="Strain gauges, by name")
     outputs: list[OutputTable] = Field(default=[], description="More motions to write to files")

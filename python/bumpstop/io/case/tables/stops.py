@@ -2,8 +2,9 @@
 
 from typing import Annotated
 
+from bumpstop.io.case.fields.laws import FrictionCoefficients, Sliding
 from bumpstop.io.case.fields.quantities import DampingConstant, Length, Number3, Stiffness
-from bumpstop.io.case.fields.words import Node, choice
+from bumpstop.io.case.fields.words import Node, OneDof, choice
 from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["StopTable"]
@@ -12,13 +13,38 @@ __all__ = ["StopTable"]
 class StopTable(Table):
     """A spring and damper that push a node back once it has crossed the gap; they never pull."""
 
-    node: Node = Field(description="The node that it stops")
+    node: Node | None = Field(default=None, description="The node that it stops")
     obstacle: Annotated[str, choice("plane")] = Field(
         default="plane", description="Shape of the obstacle"
     )
-    normal: Number3 = Field(description="Direction in which the obstacle pushes the structure")
+    normal: Number3 | None = Field(
+        default=None, description="Direction in which the obstacle pushes the structure"
+    )
+    other: Node | None = Field(
+        default=None, description="A node that carries the obstacle; else it is fixed"
+    )
+    terms: dict[Node, dict[OneDof, Length]] | None = Field(
+        default=None,
+        description="Instead of node, normal and other: weights of dofs in the distance, such as "
+        "{ pinion.drz = 0.05, wheel.drz = 0.08 }; that of a rotation is a length, in m",
+    )
     gap: Length = Field(
         default=0.0, description="Distance from the undeformed structure to the obstacle, in m"
     )
     stiffness: Stiffness = Field(description="Contact stiffness, in N/m")
     damping: DampingConstant = Field(default=0.0, description="Contact damping, in N s/m")
+    friction: FrictionCoefficients | None = Field(
+        default=None,
+        description="Coefficient of Coulomb friction, or { static = ..., dynamic = ... }",
+    )
+    sliding: Sliding | None = Field(
+        default=None,
+        description="Direction along the obstacle in which it rubs, or weights of dofs as in "
+        "terms; not needed where the node moves in one direction only along the obstacle",
+    )
+    tangential_stiffness: Stiffness | None = Field(
+        default=None, description="Stiffness of a contact that sticks, in N/m; friction needs it"
+    )
+    tangential_damping: DampingConstant = Field(
+        default=0.0, description="Damping of a contact that sticks, in N s/m"
+    )

@@ -1,0 +1,103 @@
+"""What laws are described by: coefficients of friction, directions of sliding, force curves."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from bumpstop.errors import InputError
+from bumpstop.io.case.fields.plain import Plain, read_list
+from bumpstop.io.case.fields.quantities import read_number
+from bumpstop.io.case.fields.words import choice, read_node
+from bumpstop.io.units import Dimension
+from bumpstop.structure.dofs import DOFS, Dof
+
+__all__ = ["Curve", "Deformations", "FrictionCoefficients", "Sliding", "Slopes"]
+
+_COEFFICIENT = Dimension("a pure number", "", "0.2")
+_DEFORMATION = Dimension("a length", "m", "2 mm")
+_FORCE = Dimension("a force", "N", "5 kN")
+_SLOPE = Dimension("a stiffness", "N/m", "18 kN/m")
+_COEFFICIENTS = ("static", "dynamic")
+
+
+def _read_friction(value: object) -> float | dict[str, float]:
+    if not isinstance(value, dict):
+        return read_number(value, _COEFFICIENT, least=0)
+    friction = {}
+    for key, coefficient in value.items():
+        choice(*_COEFFICIENTS).read(key)
+        try:
+            friction[key] = read_number(coefficient, _COEFFICIENT, least=0)
+        except InputError as error:
+            raise error.located(key=key) from error
+    return friction
+
+
+def _read_sliding(value: object) -> tuple[float, ...] | dict[Dof, float]:
+    if isinstance(value, list):
+        return tuple(read_list(value, _read_component, "numbers", 3))
+    if not isinstance(value, dict):
+        raise InputError("must be a direction, or weights of dofs", value=value)
+    terms = {}
+    for node, weights in value.items():
+        if not isinstance(weights, dict):
+            raise InputError("must be weights of dofs, such as { dx = 1.0 }", value=weights)
+        for dof, weight in weights.items():
+            where = (read_node(node), choice(*DOFS).read(dof))
+            terms[where] = read_number(weight, _DEFORMATION)
+    return terms
+
+
+def _read_component(value: object) -> float:
+    return read_number(value, _COEFFICIENT)
+
+
+def _read_deformations(value: object) -> list[float]:
+    return read_list(value, lambda each: read_number(each, _DEFORMATION), "numbers")
+
+
+def _read_slopes(value: object) -> list[float]:
+    return read_list(value, lambda each: read_number(each, _SLOPE), "numbers")
+
+
+def _read_curve(value: object) -> list[tuple[float, float]]:
+    return read_list(value, _read_point, "points [deformation, force]")
+
+
+def _read_point(value: object) -> tuple[float, float]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError("must be a deformation and a force", value=value)
+    return read_number(value[0], _DEFORMATION), read_number(value[1], _FORCE)
+
+
+_ONE: dict[str, Any] = {"type": ["number", "string"]}
+_LIST: dict[str, Any] = {"type": "array", "items": _ONE, "minItems": 1}
+_DIRECTION = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+_WEIGHTS = {"type": "object", "additionalProperties": _ONE}
+_POINT = {"type": "array", "items": _ONE, "minItems": 2, "maxItems": 2}
+_FRICTION = {
+    "anyOf": [
+        {"type": "number", "minimum": 0},
+        {
+            "type": "object",
+            "properties": {key: {"type": "number", "minimum": 0} for key in _COEFFICIENTS},
+            "required": ["static"],
+            "additionalProperties": False,
+        },
+    ]
+}
+
+FrictionCoefficients = Annotated[float | dict[str, float], Plain(_read_friction, _FRICTION)]
+Sliding = Annotated[
+    tuple[float, float, float] | dict[Dof, float],
+    Plain(
+        _read_sliding,
+        {"anyOf": [_DIRECTION, {"type": "object", "additionalProperties": _WEIGHTS}]},
+    ),
+]
+Slopes = Annotated[list[float], Plain(_read_slopes, _LIST)]
+Deformations = Annotated[list[float], Plain(_read_deformations, _LIST)]
+Curve = Annotated[
+    list[tuple[float, float]],
+    Plain(_read_curve, {"type": "array", "items": _POINT, "minItems": 2}),
+]

@@ -1,0 +1,123 @@
+"""The coordinate that a law acts along: a direction at a node, or a weighted sum of dofs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, Vector, name, vector
+from bumpstop.errors import InputError
+from bumpstop.projection import ROTATIONS, TRANSLATIONS, direction_row
+from bumpstop.structure.dofs import Dof
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["Coordinate", "Terms", "unit"]
+
+Terms = Mapping[Dof, float]
+"""The weight of each (node, dof)."""
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """What a law sees of the motion.
+
+    Parameters
+    ----------
+    node
+        The node; where there are terms, the node of the first of them.
+    direction
+        Unit vector; where there are terms, that of the first node's.
+    other
+        The node whose motion is taken off; None for that against the ground.
+    terms
+        Instead of these: weights by (node, dof).
+    """
+
+    node: str
+    direction: Vector
+    other: str | None = None
+    terms: Terms | None = None
+
+    @classmethod
+    def of(
+        cls,
+        node: object,
+        key: str,
+        direction: object,
+        other: object = None,
+        terms: object = None,
+    ) -> Self:
+        """Check what a user says: either node and direction (called ``key``), or terms."""
+        if terms is None:
+            if node is None or direction is None:
+                what = f"must have a node and its {key}, or terms"
+                raise InputError(what, key="node" if node is None else key)
+            where = None if other is None else name("other", other)
+            if where == node:
+                raise InputError("must be another node", key="other", value=other)
+            return cls(name("node", node), unit(key, direction), where)
+        for given, value in (("node", node), (key, direction), ("other", other)):
+            if value is not None:
+                raise InputError("is told by the terms already", key=given, value=value)
+        return cls._of_terms(terms)
+
+    @classmethod
+    def _of_terms(cls, terms: object) -> Self:
+        from bumpstop.structure.relation import Relation
+
+        checked = Relation(terms).terms  # type: ignore[arg-type]  # it checks them
+        node = next(iter(checked))[0]
+        kinds = [TRANSLATIONS, ROTATIONS]
+        weights = [[checked.get((node, dof), 0.0) for dof in dofs] for dofs in kinds]
+        x, y, z = weights[0] if any(weights[0]) else weights[1]
+        return cls(node, unit("terms", (x, y, z)), None, checked)
+
+    @property
+    def dofs(self) -> tuple[Dof, ...]:
+        """The (node, dof) that it is made of."""
+        if self.terms is not None:
+            return tuple(self.terms)
+        nodes = [self.node] if self.other is None else [self.node, self.other]
+        both = list(zip(TRANSLATIONS, self.direction, strict=True))
+        return tuple((node, dof) for node in nodes for dof, part in both if part != 0.0)
+
+    @property
+    def main_dof(self) -> Dof:
+        """The (node, dof) that it tells most of."""
+        if self.terms is not None:
+            return next(iter(self.terms))
+        sizes = [abs(part) for part in self.direction]
+        return self.node, TRANSLATIONS[sizes.index(max(sizes))]
+
+    def row(self, basis: ModalBasis) -> FloatArray:
+        """Return the coordinate per unit of each modal displacement, (N,).
+
+        Raises
+        ------
+        InputError
+            If the basis has no shape at a node, or no mode moves along the coordinate.
+        """
+        if self.terms is None:
+            row = direction_row(basis, self.node, self.direction)
+            if self.other is not None:
+                row = row - direction_row(basis, self.other, self.direction)
+        else:
+            row = np.zeros(len(basis.omega2))
+            for (node, dof), weight in self.terms.items():
+                row += weight * basis.row(node, dof)
+        return row
+
+
+def unit(key: str, value: object) -> Vector:
+    """Return a vector of length one along a given one."""
+    x, y, z = vector(key, value)
+    length = math.hypot(x, y, z)
+    if length == 0.0:
+        raise InputError("must not be the zero vector", key=key, value=value)
+    return (x / length, y / length, z / length)

@@ -1,0 +1,156 @@
+"""Coulomb friction of a stop along one direction."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, Vector, did_you_mean, not_negative
+from bumpstop.errors import InputError
+from bumpstop.laws.coordinate import Coordinate, Terms, unit
+from bumpstop.projection import TRANSLATIONS
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["Friction", "sliding_row"]
+
+ONE_DIRECTION = 1e-9
+"""Motions across the only direction that is not theirs, relative to those along it."""
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Coefficients of friction.
+
+    Parameters
+    ----------
+    static
+        Ratio of tangential to normal force above which the contact breaks loose.
+    dynamic
+        Ratio while it slides, at most the static one; the same where left out.
+
+    Raises
+    ------
+    InputError
+        If a coefficient is negative, or the dynamic one exceeds the static one.
+
+    Examples
+    --------
+    >>> Friction(0.3).while_sliding
+    0.3
+    """
+
+    static: float
+    dynamic: float | None = None
+
+    def __post_init__(self) -> None:
+        static = not_negative("friction.static", self.static)
+        dynamic = self.dynamic
+        if dynamic is not None:
+            dynamic = not_negative("friction.dynamic", dynamic)
+        if dynamic is not None and dynamic > static:
+            hint = f"the static one is {static:g}"
+            what = "must not exceed the static coefficient"
+            raise InputError(what, key="friction.dynamic", value=dynamic, hint=hint)
+        object.__setattr__(self, "static", static)
+        object.__setattr__(self, "dynamic", dynamic)
+
+    @property
+    def while_sliding(self) -> float:
+        """The coefficient while it slides."""
+        return self.static if self.dynamic is None else self.dynamic
+
+    @classmethod
+    def of(cls, value: object) -> Self:
+        """Return the friction that a number, a mapping or a friction says."""
+        if isinstance(value, cls):
+            return value
+        if not isinstance(value, Mapping):
+            return cls(not_negative("friction", value))
+        for key in value:
+            if key not in ("static", "dynamic"):
+                hint = did_you_mean(key, ("static", "dynamic"))
+                raise InputError("is no coefficient", key=f"friction.{key}", hint=hint)
+        if "static" not in value:
+            raise InputError("must have a static coefficient", key="friction", value=dict(value))
+        return cls(**value)
+
+
+def sliding_row(
+    basis: ModalBasis, contact: Coordinate, sliding: Vector | Terms | None
+) -> FloatArray:
+    """Return the motion along the obstacle per unit of each modal displacement, (N,).
+
+    Parameters
+    ----------
+    basis
+        The modes.
+    contact
+        The coordinate of the distance.
+    sliding
+        A direction, of which the part along the obstacle counts; a sum of dofs; or None where
+        the modes move the node along the obstacle in one direction only, which is taken.
+
+    Raises
+    ------
+    InputError
+        If nothing moves along the obstacle, or in more than one direction and none is given.
+    """
+    if isinstance(sliding, Mapping):
+        row = Coordinate.of(None, "sliding", None, terms=sliding).row(basis)
+    elif sliding is not None:
+        row = _along(basis, contact, tangent(contact.direction, sliding))
+    else:
+        row = _only_row(basis, contact)
+    if not row.any():
+        what = "no mode moves this node along the obstacle"
+        raise InputError(what, key="friction", hint="leave the friction out")
+    return row
+
+
+def tangent(normal: Vector, sliding: object) -> Vector:
+    """Return the unit vector of a direction's part across the normal."""
+    direction = np.array(unit("sliding", sliding))
+    across = direction - np.dot(direction, normal) * np.asarray(normal)
+    if np.linalg.norm(across) < ONE_DIRECTION:
+        raise InputError("must not be the normal", key="sliding", value=sliding)
+    return unit("sliding", across)
+
+
+def _along(basis: ModalBasis, contact: Coordinate, direction: Vector) -> FloatArray:
+    return Coordinate(contact.node, direction, contact.other).row(basis)
+
+
+def _only_row(basis: ModalBasis, contact: Coordinate) -> FloatArray:
+    """Return the motion in the one direction along the obstacle in which there is any."""
+    if contact.terms is not None:
+        hint = "give it, as the distance is, by the weights of dofs"
+        raise InputError("must be told where there are terms", key="sliding", hint=hint)
+    shapes = np.array([_component(basis, contact, dof) for dof in TRANSLATIONS])
+    normal = np.asarray(contact.direction)
+    shapes -= np.outer(normal, normal @ shapes)
+    directions, sizes, _ = np.linalg.svd(shapes, full_matrices=False)
+    if sizes[1] > ONE_DIRECTION * sizes[0]:
+        hint = "friction acts along one direction: say which, such as sliding = [1, 0, 0]"
+        what = "the node can move along the obstacle in more than one direction"
+        raise InputError(what, key="sliding", hint=hint)
+    main = directions[:, 0]
+    main *= np.sign(main[np.argmax(np.abs(main))]) * (np.abs(main) > ONE_DIRECTION)
+    row: FloatArray = main @ shapes
+    return row
+
+
+def _component(basis: ModalBasis, contact: Coordinate, dof: str) -> FloatArray:
+    """Return the motion along one axis; zero where the basis tells none."""
+    row = np.zeros(len(basis.omega2))
+    for node, sign in ((contact.node, 1.0), (contact.other, -1.0)):
+        if node is not None:
+            try:
+                row += sign * basis.row(node, dof)
+            except InputError:
+                continue
+    return row

@@ -1,0 +1,194 @@
+"""SpringLaw: an elastic spring whose stiffness changes with its deformation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, ClassVar, Self
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, Vector, finite, name, not_negative, pair, series
+from bumpstop.errors import InputError
+from bumpstop.laws.coordinate import Coordinate, Terms
+
+if TYPE_CHECKING:
+    from bumpstop import _core
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["SpringLaw"]
+
+MOST_SEGMENTS = 255
+
+
+@dataclass(frozen=True)
+class SpringLaw:
+    """A bilinear or multilinear elastic spring, with a damper beside it.
+
+    With the deformation ``x = direction . (u - u_other)`` the force on the node is
+    ``-(f(x) + damping x')`` along the direction, and the opposite on the other node. f is
+    continuous and has one slope in each segment between two breaks; it is ``preload`` at x = 0.
+    Loading and unloading follow the same line: nothing but the damper dissipates.
+
+    Parameters
+    ----------
+    name
+        What the spring is called in results.
+    node
+        The node that it holds: a node's name or a point along a beam (``"AB@0.462"``).
+    direction
+        Direction along which it acts, in global axes; any length but zero, kept as a unit
+        vector.
+    other
+        The node that holds it; the ground where left out.
+    terms
+        Instead of node, direction and other: the weight of each (node, dof) in the deformation.
+    stiffness
+        Slopes in N/m, from the lowest deformations to the highest; one more than breaks. They
+        may be zero (play) or negative (buckling).
+    breaks
+        Deformations in m at which the slope changes, increasing.
+    preload
+        Force in N that resists at no deformation.
+    damping
+        Damping constant in N s/m.
+
+    Raises
+    ------
+    InputError
+        If a number is not finite, the breaks do not increase or do not fit the slopes.
+
+    Examples
+    --------
+    A bilinear spring, harder in compression, and a symmetric one with play of 2 mm:
+
+    >>> pad = SpringLaw("pad", node="P", direction=(0, 0, 1), stiffness=(5e5, 1e5), breaks=(0.0,))
+    >>> play = SpringLaw("play", node="P", direction=(1, 0, 0), stiffness=(1e5, 0.0, 1e5),
+    ...                  breaks=(-1e-3, 1e-3))
+    >>> play.force([-3e-3, 0.0, 2e-3]).tolist()
+    [-200.0, 0.0, 100.0]
+    """
+
+    table: ClassVar[str] = "laws"
+    """Where a problem keeps it, in words for messages."""
+
+    name: str
+    _: KW_ONLY
+    node: str = None  # type: ignore[assignment]  # told by the terms where it is left out
+    direction: Vector = None  # type: ignore[assignment]  # as the node
+    other: str | None = None
+    terms: Terms | None = None
+    stiffness: Sequence[float]
+    breaks: Sequence[float] = ()
+    preload: float = 0.0
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        name("name", self.name)
+        along = Coordinate.of(self.node, "direction", self.direction, self.other, self.terms)
+        object.__setattr__(self, "node", along.node)
+        object.__setattr__(self, "direction", along.direction)
+        object.__setattr__(self, "terms", along.terms)
+        breaks = series("breaks", self.breaks) if len(self.breaks) else ()
+        object.__setattr__(self, "stiffness", series("stiffness", self.stiffness))
+        object.__setattr__(self, "breaks", breaks)
+        object.__setattr__(self, "preload", finite("preload", self.preload))
+        object.__setattr__(self, "damping", not_negative("damping", self.damping))
+        if len(self.stiffness) != len(breaks) + 1:
+            hint = f"{len(breaks)} breaks part {len(breaks) + 1} segments"
+            what = "must have one slope more than there are breaks"
+            raise InputError(what, key="stiffness", value=self.stiffness, hint=hint)
+        if len(self.stiffness) > MOST_SEGMENTS:
+            what = f"must not have more than {MOST_SEGMENTS} segments"
+            raise InputError(what, key="stiffness", value=len(self.stiffness))
+        if any(after <= before for before, after in pairwise(breaks)):
+            raise InputError("must increase", key="breaks", value=breaks)
+
+    @classmethod
+    def through(
+        cls,
+        points: Sequence[Sequence[float]],
+        name: str,
+        *,
+        node: str | None = None,
+        direction: Vector | None = None,
+        other: str | None = None,
+        terms: Terms | None = None,
+        damping: float = 0.0,
+    ) -> Self:
+        """Return the spring whose force follows a line through points.
+
+        Parameters
+        ----------
+        points
+            Pairs of deformation in m and resisting force in N, at least two, in the order of
+            deformation. Beyond the ends the outermost slopes go on.
+        name, node, direction, other, terms, damping
+            As for any such spring.
+
+        Examples
+        --------
+        >>> curve = [(-1e-3, -50.0), (0.0, 0.0), (2e-3, 400.0)]
+        >>> SpringLaw.through(curve, "pad", node="P", direction=(1, 0, 0)).stiffness
+        (50000.0, 200000.0)
+        """
+        pairs = np.array([pair(f"curve[{i}]", point) for i, point in enumerate(points)])
+        if len(pairs) < 2:
+            raise InputError("must have at least two points", key="curve", value=points)
+        steps = np.diff(pairs, axis=0)
+        if (steps[:, 0] <= 0.0).any():
+            raise InputError("must be in the order of deformation", key="curve", value=points)
+        slopes = steps[:, 1] / steps[:, 0]
+        breaks = pairs[1:-1, 0]
+        home = int(np.searchsorted(breaks, 0.0, side="right"))
+        return cls(
+            name,
+            node=node,  # type: ignore[arg-type]  # checked there
+            direction=direction,  # type: ignore[arg-type]
+            other=other,
+            terms=terms,
+            stiffness=tuple(slopes.tolist()),
+            breaks=tuple(breaks.tolist()),
+            preload=float(pairs[home, 1] - slopes[home] * pairs[home, 0]),
+            damping=damping,
+        )
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """The coordinate of its deformation."""
+        return Coordinate(self.node, self.direction, self.other, self.terms)
+
+    @property
+    def normal(self) -> Vector:
+        """Its direction, as a stop has one."""
+        return self.direction
+
+    def row(self, basis: ModalBasis) -> FloatArray:
+        """Return the deformation per unit of each modal displacement, (N,).
+
+        Raises
+        ------
+        InputError
+            If the basis has no shape at a node, or no mode deforms the spring.
+        """
+        row = self.coordinate.row(basis)
+        if not row.any():
+            raise InputError("no mode deforms this spring", key="node", value=self.node)
+        return row
+
+    def core(self, basis: ModalBasis) -> _core.Spring:
+        """Return the spring as the core sees it; see `row`."""
+        from bumpstop import _core
+
+        breaks, stiffness = np.array(self.breaks, np.float64), np.array(self.stiffness)
+        return _core.Spring(self.row(basis), breaks, stiffness, self.preload, self.damping)
+
+    def force(self, deformation: FloatArray | Sequence[float]) -> FloatArray:
+        """Return the force in N with which it resists, for deformations in m at rest."""
+        x = np.asarray(deformation, dtype=np.float64)
+        ends = np.array([-np.inf, *self.breaks, np.inf])
+        total = np.full(x.shape, self.preload)
+        for slope, low, high in zip(self.stiffness, ends[:-1], ends[1:], strict=True):
+            total += slope * (np.clip(x, low, high) - np.clip(0.0, low, high))
+        return total
