@@ -97,7 +97,7 @@ def test_default_grid_has_a_thousand_intervals() -> None:
 def test_canonical_form_adds_up_loads() -> None:
     push = [NodalForce(name, node="P", force=(2.0, 0, 0)) for name in ("one", "two")]
     form = canonical_form(Problem(basis(), loads=push, duration=1.0))
-    assert form.force.tolist() == [4.0, 1.6]
+    assert form.forcing.at(0.3).tolist() == [4.0, 1.6]
     assert form.displacement.tolist() == form.velocity.tolist() == [0.0, 0.0]
 
 

@@ -21,9 +21,11 @@ if TYPE_CHECKING:
     from bumpstop.laws.obstacle import Plane
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
+    from bumpstop.loads.base_motion import BaseMotion
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
+    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.modal.certificate import SturmCount
     from bumpstop.modal.damping import RayleighDamping, StructuralDamping
@@ -66,6 +68,7 @@ __version__ = "0.1.0"
 __all__ = [
     "AllModes",
     "Assembly",
+    "BaseMotion",
     "Beam",
     "Bearing",
     "BumpstopError",
@@ -80,6 +83,7 @@ __all__ = [
     "Gauge",
     "GeneralSection",
     "Gravity",
+    "Harmonic",
     "InputError",
     "Joint",
     "LowestModes",
@@ -94,6 +98,7 @@ __all__ = [
     "Placed",
     "Plane",
     "PointMass",
+    "Polynomial",
     "Problem",
     "RayleighDamping",
     "Rectangle",
@@ -112,6 +117,7 @@ __all__ = [
     "Structure",
     "SturmCount",
     "Support",
+    "TimeTable",
     "Tube",
     "campbell",
     "complex_modes",
@@ -131,6 +137,7 @@ __all__ = [
 _HOME = {
     "AllModes": "modal.selection",
     "Assembly": "modal.substructure.assembly",
+    "BaseMotion": "loads.base_motion",
     "Beam": "structure.beam",
     "Bearing": "structure.bearing",
     "BumpstopError": "errors",
@@ -145,6 +152,7 @@ _HOME = {
     "Gauge": "structure.gauge",
     "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
+    "Harmonic": "loads.time",
     "InputError": "errors",
     "Joint": "modal.substructure.joint",
     "LowestModes": "modal.selection",
@@ -159,6 +167,7 @@ _HOME = {
     "Placed": "modal.substructure.placed",
     "Plane": "laws.obstacle",
     "PointMass": "structure.mass",
+    "Polynomial": "loads.time",
     "Problem": "problem",
     "RayleighDamping": "modal.damping",
     "Rectangle": "structure.sections.rectangle",
@@ -177,6 +186,7 @@ _HOME = {
     "Structure": "structure.structure",
     "SturmCount": "modal.certificate",
     "Support": "structure.support",
+    "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
     "campbell": "modal.rotor",
     "complex_modes": "modal.oscillation",

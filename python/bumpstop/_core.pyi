@@ -85,6 +85,25 @@ class System:
     ) -> None:
         """Take omega2 (N,) and circulatory (N, N) in rad2/s2, the others alike in rad/s."""
 
+class Forcing:
+    """Modal forces over time: constant ones, and vectors (N,) times functions of time."""
+
+    def __init__(
+        self,
+        constant: Array,
+        polynomials: list[tuple[Array, Array]] = [],
+        harmonics: list[tuple[float, Array, Array]] = [],
+        tables: list[tuple[Array, Array, Array, bool]] = [],
+    ) -> None:
+        """Take forces in N per unit modal displacement.
+
+        Polynomials are (direction, coefficients of the powers of time), harmonics (angular
+        frequency in rad/s, amplitudes of cosine and sine), tables (direction, times, values,
+        whether the values at their ends hold beyond them, instead of zero).
+        """
+    def at(self, time: float) -> Array:
+        """Modal forces (N,) at a time in s; just after it where they jump."""
+
 class Stop:
     """A unilateral spring and damper at distance ``d = gap + row . q``."""
 
@@ -164,7 +183,7 @@ class History:
 def simulate(
     system: System,
     laws: Sequence[Law],
-    force: Array,
+    forcing: Forcing,
     displacement: Array,
     velocity: Array,
     duration: float,
@@ -173,7 +192,7 @@ def simulate(
     beyond_stability_limit: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> History:
-    """Integrate. ``force`` is the constant modal force (N,); releases the GIL.
+    """Integrate; releases the GIL.
 
     ``method`` is ``exact``, ``symplectic_euler`` or ``central_difference``; the fixed-step
     ones need ``dt``. ``progress`` is called with the fraction done, about ten times a second.

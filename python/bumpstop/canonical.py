@@ -17,15 +17,15 @@ __all__ = ["CanonicalForm", "canonical_form"]
 
 
 class CanonicalForm(NamedTuple):
-    """``q'' + (C + G) q' + (diag(omega2) + N) q = force + laws``, unit modal mass.
+    """``q'' + (C + G) q' + (diag(omega2) + N) q = forces + laws``, unit modal mass.
 
     N is the circulatory matrix.
     """
 
     system: _core.System
     laws: list[_core.Law]
-    force: FloatArray
-    """Constant modal force, one entry a mode."""
+    forcing: _core.Forcing
+    """Modal forces over time, one entry a mode."""
     displacement: FloatArray
     """Modal displacement at t = 0."""
     velocity: FloatArray
@@ -45,13 +45,40 @@ def canonical_form(problem: Problem) -> CanonicalForm:
     basis = problem.basis
     modes = len(basis.omega2)
     laws = [law.core(basis) for law in problem.laws]
-    force = sum((load.modal_force(basis) for load in problem.loads), np.zeros(modes))
     if problem.initial is None:
         displacement, velocity = np.zeros(modes), np.zeros(modes)
     else:
         displacement, velocity = problem.initial.modal_state(basis)
     system = _core.System(basis.omega2, *_velocity_terms(basis), basis.circulatory)
-    return CanonicalForm(system, laws, force, displacement, velocity)
+    return CanonicalForm(system, laws, _forcing(problem), displacement, velocity)
+
+
+def _forcing(problem: Problem) -> _core.Forcing:
+    """Return the modal forces of all loads."""
+    constant = np.zeros(len(problem.basis.omega2))
+    changing = []
+    for load in problem.loads:
+        force = load.modal_force(problem.basis)
+        if load.functions:
+            changing += [(force, function) for function in load.functions]
+        else:
+            constant += force
+    if not changing:
+        return _core.Forcing(constant)
+    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
+
+    polynomials, harmonics, tables = [], [], []
+    for force, function in changing:
+        match function:
+            case Polynomial():
+                polynomials.append((force, np.array(function.coefficients)))
+            case Harmonic():
+                omega = 2.0 * np.pi * function.frequency
+                harmonics.append((omega, function.cosine * force, function.sine * force))
+            case TimeTable():
+                times, values = np.asarray(function.times), np.asarray(function.values)
+                tables.append((force, times, values, function.beyond == "hold"))
+    return _core.Forcing(constant, polynomials, harmonics, tables)
 
 
 def _velocity_terms(basis: ModalBasis) -> tuple[FloatArray, FloatArray | None]:

@@ -17,6 +17,7 @@ from bumpstop.structure.gauge import Gauge
 if TYPE_CHECKING:
     from bumpstop import _core
     from bumpstop.laws.coordinate import Coordinate
+    from bumpstop.loads.time import TimeFunction
 
 __all__ = ["InitialState", "Law", "Load", "Problem"]
 
@@ -57,14 +58,18 @@ class Law(Protocol):
 
 @runtime_checkable
 class Load(Protocol):
-    """A force that does not depend on the motion."""
+    """A force that does not depend on the motion: a vector times functions of time."""
 
     @property
     def name(self) -> str:
         """What the load is called."""
 
+    @property
+    def functions(self) -> tuple[TimeFunction, ...]:
+        """The functions of time whose sum it is multiplied by; none where it is constant."""
+
     def modal_force(self, basis: ModalBasis) -> FloatArray:
-        """Return the force on each mode (N,)."""
+        """Return the force on each mode (N,) where the function of time is one."""
 
 
 @runtime_checkable
@@ -92,7 +97,7 @@ class Problem:
     laws
         Its local nonlinearities; names must differ.
     loads
-        Constant forces; names must differ.
+        Forces, constant or changing in time, and motions of the supports; names must differ.
     initial
         State at t = 0; at rest and undeformed where left out.
     duration
@@ -188,6 +193,10 @@ class Problem:
         for load in self.loads:
             with _at(f"loads.{load.name}"):
                 load.modal_force(self.basis)
+                if load.functions:
+                    from bumpstop.loads.time import check_span
+
+                    check_span(load.functions, self.duration)
         for gauge in self.gauges:
             with _at(f"gauges.{gauge.name}"):
                 self.basis.gauge_row(gauge)

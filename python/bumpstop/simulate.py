@@ -94,7 +94,7 @@ def simulate(
         history = _core.simulate(
             model.system,
             model.laws,
-            model.force,
+            model.forcing,
             model.displacement,
             model.velocity,
             problem.duration,
@@ -111,7 +111,7 @@ def simulate(
 
 def _choose(method: str) -> tuple[str, str]:
     if method == "auto":
-        return "exact", "all laws are piecewise linear and all loads constant"
+        return "exact", "all laws are piecewise linear"
     return method, "asked for"
 
 

@@ -49,7 +49,7 @@ class StopProblem:
         return _core.simulate(
             _core.System(self.omega2, self.damping),
             [_core.Stop(self.row, self.gap, self.stiffness, self.stop_damping)],
-            self.force,
+            _core.Forcing(self.force),
             self.displacement,
             self.velocity,
             self.duration,

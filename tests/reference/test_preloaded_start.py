@@ -16,7 +16,13 @@ def test_a_preloaded_stop_pushes_the_mass_into_the_one_that_it_touches() -> None
     omega = np.sqrt(STIFFNESS.sum())
     zero = np.zeros(1)
     history = _core.simulate(
-        _core.System(zero, zero), stops, np.array([-1.0]), zero, zero, np.pi / omega, "exact"
+        _core.System(zero, zero),
+        stops,
+        _core.Forcing(np.array([-1.0])),
+        zero,
+        zero,
+        np.pi / omega,
+        "exact",
     )
     assert history.event_count == 0
     times = np.linspace(0.0, np.pi / omega, 9)

@@ -1,8 +1,9 @@
 //! What a problem is made of.
 
 use crate::core_error;
+use bumpstop_core::forcing::{self, Beyond, Table};
 use bumpstop_core::{law, system};
-use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 /// `q'' + (diag(damping) + coupling) q' + (diag(omega2) + circulatory) q = f`, unit modal mass.
@@ -30,6 +31,52 @@ impl System {
             Ok(Self(system))
         };
         build().map_err(core_error)
+    }
+}
+
+/// Modal forces as functions of time: constant ones, and vectors times polynomials, harmonics and
+/// tables.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct Forcing(pub forcing::Forcing);
+
+type Column<'py> = PyReadonlyArray1<'py, f64>;
+
+#[pymethods]
+impl Forcing {
+    /// Polynomials are (direction, coefficients), harmonics (omega, cosine, sine), tables
+    /// (direction, times, values, whether the values at its ends hold beyond them).
+    #[new]
+    #[pyo3(signature = (constant, polynomials=Vec::new(), harmonics=Vec::new(), tables=Vec::new()))]
+    #[allow(clippy::needless_pass_by_value)] // mirrors the Python signature
+    fn new(
+        constant: Column<'_>,
+        polynomials: Vec<(Column<'_>, Column<'_>)>,
+        harmonics: Vec<(f64, Column<'_>, Column<'_>)>,
+        tables: Vec<(Column<'_>, Column<'_>, Column<'_>, bool)>,
+    ) -> PyResult<Self> {
+        let build = || {
+            let mut forcing = forcing::Forcing::constant(values(&constant))?;
+            for (direction, coefficients) in &polynomials {
+                forcing = forcing.with_polynomial(values(direction), values(coefficients))?;
+            }
+            for (omega, cosine, sine) in &harmonics {
+                forcing = forcing.with_harmonic(*omega, &values(cosine), &values(sine))?;
+            }
+            for (direction, times, knots, holds) in &tables {
+                let beyond = if *holds { Beyond::Hold } else { Beyond::Zero };
+                let table = Table::new(values(times), values(knots), beyond)?;
+                forcing = forcing.with_table(values(direction), table)?;
+            }
+            Ok(forcing)
+        };
+        build().map(Self).map_err(core_error)
+    }
+
+    /// The modal forces at a time.
+    fn at<'py>(&self, py: Python<'py>, time: f64) -> Bound<'py, PyArray1<f64>> {
+        let mut forces = self.0.forces().to_vec();
+        self.0.at(time, &mut forces);
+        forces.into_pyarray(py)
     }
 }
 

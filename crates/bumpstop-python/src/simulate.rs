@@ -2,9 +2,8 @@
 
 use crate::core_error;
 use crate::history::History;
-use crate::parts::{LawPart, System, values};
+use crate::parts::{Forcing, LawPart, System, values};
 use bumpstop_core::error::Error;
-use bumpstop_core::forcing::Forcing;
 use bumpstop_core::method::fixed_step::Step;
 use bumpstop_core::method::{self, Method, central_difference, symplectic_euler};
 use bumpstop_core::problem::Problem;
@@ -19,14 +18,14 @@ const BETWEEN_REPORTS: Duration = Duration::from_millis(100);
 
 /// Integrates a problem; releases the GIL.
 #[pyfunction]
-#[pyo3(signature = (system, laws, force, displacement, velocity, duration, method, dt=None,
+#[pyo3(signature = (system, laws, forcing, displacement, velocity, duration, method, dt=None,
                     beyond_stability_limit=false, progress=None))]
 #[allow(clippy::too_many_arguments)] // mirrors the Python signature
 pub fn simulate(
     py: Python<'_>,
     system: &System,
     laws: Vec<LawPart<'_>>,
-    force: PyReadonlyArray1<f64>,
+    forcing: &Forcing,
     displacement: PyReadonlyArray1<f64>,
     velocity: PyReadonlyArray1<f64>,
     duration: f64,
@@ -39,7 +38,7 @@ pub fn simulate(
     let problem = Problem::new(
         system.0.clone(),
         laws.iter().map(LawPart::law).collect(),
-        Forcing::constant(values(&force)).map_err(core_error)?,
+        forcing.0.clone(),
         values(&displacement),
         values(&velocity),
         duration,

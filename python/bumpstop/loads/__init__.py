@@ -1,4 +1,4 @@
-"""What drives the structure: forces and initial states."""
+"""What drives the structure: forces, motions of its supports, and initial states."""
 
 from __future__ import annotations
 
@@ -7,18 +7,33 @@ from typing import TYPE_CHECKING
 from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from bumpstop.loads.base_motion import BaseMotion
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
+    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
 
-__all__ = ["Gravity", "ModalState", "NodalForce", "RigidRotation"]
+__all__ = [
+    "BaseMotion",
+    "Gravity",
+    "Harmonic",
+    "ModalState",
+    "NodalForce",
+    "Polynomial",
+    "RigidRotation",
+    "TimeTable",
+]
 
 __getattr__ = lazy_names(
     __name__,
     {
+        "BaseMotion": "base_motion",
         "Gravity": "gravity",
+        "Harmonic": "time",
         "ModalState": "initial",
         "NodalForce": "force",
+        "Polynomial": "time",
         "RigidRotation": "initial",
+        "TimeTable": "time",
     },
 )

@@ -1,11 +1,13 @@
-"""NodalForce: a constant force and moment on a node."""
+"""NodalForce: a force and moment on a node."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING
 
 from bumpstop.arguments import FloatArray, Vector, name, vector
+from bumpstop.loads.time import TimeFunction, time_functions
 from bumpstop.projection import ROTATIONS, direction_row
 
 if TYPE_CHECKING:
@@ -16,7 +18,7 @@ __all__ = ["NodalForce"]
 
 @dataclass(frozen=True)
 class NodalForce:
-    """A constant force, and a moment where one is given, on one node from t = 0 on.
+    """A force, and a moment where one is given, on one node from t = 0 on.
 
     Parameters
     ----------
@@ -28,11 +30,14 @@ class NodalForce:
         Components along the global axes, in N.
     moment
         Components about the global axes, in N m.
+    time
+        What both are multiplied by: a function of time, or a list of functions whose sum is
+        meant; constant where left out.
 
     Raises
     ------
     InputError
-        If a component is missing or not finite.
+        If a component is missing or not finite, or something else is no function of time.
 
     Examples
     --------
@@ -45,15 +50,22 @@ class NodalForce:
     node: str
     force: Vector = (0.0, 0.0, 0.0)
     moment: Vector = (0.0, 0.0, 0.0)
+    time: TimeFunction | Sequence[TimeFunction] | None = None
 
     def __post_init__(self) -> None:
         name("name", self.name)
         name("node", self.node)
         object.__setattr__(self, "force", vector("force", self.force))
         object.__setattr__(self, "moment", vector("moment", self.moment))
+        time_functions(self.time)
+
+    @property
+    def functions(self) -> tuple[TimeFunction, ...]:
+        """The functions of time whose sum it is multiplied by; none where it is constant."""
+        return time_functions(self.time)
 
     def modal_force(self, basis: ModalBasis) -> FloatArray:
-        """Return the force on each mode (N,), for unit modal mass.
+        """Return the force on each mode (N,) where the function of time is one.
 
         Raises
         ------

@@ -9,6 +9,7 @@ from bumpstop.arguments import FloatArray, Vector, name, vector
 from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["Gravity"]
@@ -43,6 +44,11 @@ class Gravity:
     def __post_init__(self) -> None:
         name("name", self.name)
         object.__setattr__(self, "acceleration", vector("acceleration", self.acceleration))
+
+    @property
+    def functions(self) -> tuple[TimeFunction, ...]:
+        """No functions of time: it is constant."""
+        return ()
 
     def modal_force(self, basis: ModalBasis) -> FloatArray:
         """Return the weight on each mode (N,), for unit modal mass.

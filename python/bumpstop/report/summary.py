@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bumpstop.laws import Friction, SpringLaw, Stop
-from bumpstop.loads import Gravity, ModalState, NodalForce, RigidRotation
+from bumpstop.loads import (
+    BaseMotion,
+    Gravity,
+    Harmonic,
+    ModalState,
+    NodalForce,
+    Polynomial,
+    RigidRotation,
+    TimeTable,
+)
 from bumpstop.modal.substructure import Assembly
 from bumpstop.report.scales import significant, with_unit
 from bumpstop.structure.sections.rectangle import Rectangle
@@ -17,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bumpstop.laws.coordinate import Coordinate
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.modal.substructure import Joint, Placed
     from bumpstop.problem import InitialState, Law, Load, Problem
@@ -222,8 +232,31 @@ def _load(load: Load) -> str:
     if isinstance(load, NodalForce):
         force = _vector(load.force, "N") if any(load.force) else ""
         moment = _vector(load.moment, "N m") if any(load.moment) else ""
-        return f"{load.name}: {' and '.join(filter(None, [force, moment]))} at {load.node}"
+        what = f"{' and '.join(filter(None, [force, moment]))} at {load.node}"
+        return f"{load.name}: {what}{_times(load.functions)}"
+    if isinstance(load, BaseMotion):
+        acceleration = _vector(load.acceleration, "m/s²")
+        return f"{load.name}: acceleration of all supports {acceleration}{_times(load.functions)}"
     return load.name
+
+
+def _times(functions: Sequence[TimeFunction]) -> str:
+    """Say what a load is multiplied by."""
+    return f" times {' + '.join(map(_function, functions))}" if functions else ""
+
+
+def _function(function: TimeFunction) -> str:
+    match function:
+        case Harmonic():
+            turn = f"(2π {_plain(function.frequency)} Hz t)"
+            parts = [("cos", function.cosine), ("sin", function.sine)]
+            told = [f"{_plain(size)} {name}{turn}" for name, size in parts if size]
+            return " + ".join(told) or "0"
+        case Polynomial():
+            return f"a polynomial of degree {len(function.coefficients) - 1}"
+        case TimeTable():
+            first, last = (with_unit(float(function.times[end]), "s") for end in (0, -1))
+            return f"a table of {len(function.times):,} values from {first} to {last}"
 
 
 def _initial(initial: InitialState | None) -> str:

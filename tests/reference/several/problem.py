@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from ..problem import Array
-from .loads import Exosystem, Load
+from .loads import Exosystem, Harmonic, Load, Polynomial, Table
 
 if TYPE_CHECKING:
     from bumpstop._core import History
@@ -53,12 +53,25 @@ class SeveralStops:
         """Let the core solve it by the exact method."""
         from bumpstop import _core
 
-        if self.loads:
-            raise NotImplementedError("the core takes constant forces only")
+        polynomials = [
+            (load.shape, np.array(load.coefficients))
+            for load in self.loads
+            if isinstance(load, Polynomial)
+        ]
+        harmonics = [
+            (load.frequency, np.cos(load.phase) * load.shape, -np.sin(load.phase) * load.shape)
+            for load in self.loads
+            if isinstance(load, Harmonic)
+        ]
+        tables = [
+            (load.shape, load.times, load.values, load.holds)
+            for load in self.loads
+            if isinstance(load, Table)
+        ]
         return _core.simulate(
             _core.System(self.omega2, self.damping, self.coupling),
             [_core.Stop(s.row, s.gap, s.stiffness, s.damping) for s in self.stops],
-            self.force,
+            _core.Forcing(self.force, polynomials, harmonics, tables),
             self.displacement,
             self.velocity,
             self.duration,

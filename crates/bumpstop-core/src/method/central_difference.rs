@@ -85,7 +85,7 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
     /// modes of the two steps before and the forces alone,
     /// `x[n+1] = (row own) . q[n] + (row past) . q[n-1] + (row gain) . (p + row f)`.
     #[inline(always)]
-    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()> {
+    fn march<I: Instructions, B: Count, A: Count, const CHANGING: bool>(self) -> Result<()> {
         let Self {
             problem,
             record,
@@ -120,7 +120,7 @@ impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
-                if let Some(changing) = &mut changing {
+                if CHANGING {
                     let now = changing.next();
                     for (load, now) in load.as_mut().iter_mut().zip(now) {
                         *load = Lanes::of_block(now);

@@ -328,15 +328,15 @@ pub(crate) struct ChangingLoads<'a> {
 }
 
 impl<'a> ChangingLoads<'a> {
-    /// The modal forces of a problem, each times its gain; `None` where they do not change.
-    pub(crate) fn new(forcing: &'a Forcing, dt: f64, gain: &'a [f64]) -> Option<Self> {
-        forcing.varies().then(|| Self {
+    /// The modal forces of a problem, each times its gain.
+    pub(crate) fn new(forcing: &'a Forcing, dt: f64, gain: &'a [f64]) -> Self {
+        Self {
             forcing,
             dt,
             gain,
             step: 0,
             forces: blocks(gain),
-        })
+        }
     }
 
     /// Those of the next step, the first one at t = 0.
@@ -353,8 +353,8 @@ impl<'a> ChangingLoads<'a> {
 
 /// A march through time, compiled anew for the usual sizes of problems.
 pub(crate) trait March<L: Law> {
-    /// The march for `B` blocks of modes and `A` laws.
-    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()>;
+    /// The march for `B` blocks of modes and `A` laws, under loads that change in time or not.
+    fn march<I: Instructions, B: Count, A: Count, const CHANGING: bool>(self) -> Result<()>;
 }
 
 /// Chooses the counts of a march.
@@ -367,11 +367,14 @@ impl<L: Law, M: March<L>> Vectorised for Sized<'_, L, M> {
     type Output = Result<()>;
     #[inline(always)]
     fn run<I: Instructions>(self) -> Result<()> {
+        if self.problem.forcing.varies() {
+            return self.march.march::<I, Any, Any, true>();
+        }
         let blocks = self.problem.system.modes().div_ceil(LANES);
         match (blocks, self.problem.laws.len()) {
-            (1, 1) => self.march.march::<I, Fixed<1>, Fixed<1>>(),
-            (2, 1) => self.march.march::<I, Fixed<2>, Fixed<1>>(),
-            _ => self.march.march::<I, Any, Any>(),
+            (1, 1) => self.march.march::<I, Fixed<1>, Fixed<1>, false>(),
+            (2, 1) => self.march.march::<I, Fixed<2>, Fixed<1>, false>(),
+            _ => self.march.march::<I, Any, Any, false>(),
         }
     }
 }

@@ -63,7 +63,7 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
     /// modes of the step before and the forces alone,
     /// `x' = (row - dt row c) . v - (dt row w2) . q + dt row . (p + row f)`.
     #[inline(always)]
-    fn march<I: Instructions, B: Count, A: Count>(self) -> Result<()> {
+    fn march<I: Instructions, B: Count, A: Count, const CHANGING: bool>(self) -> Result<()> {
         let Self {
             problem,
             record,
@@ -98,7 +98,7 @@ impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
             for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
-                if let Some(changing) = &mut changing {
+                if CHANGING {
                     let now = changing.next();
                     for (load, now) in load.as_mut().iter_mut().zip(now) {
                         *load = Lanes::of_block(now);

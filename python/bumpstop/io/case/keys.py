@@ -46,7 +46,8 @@ def keyed(table: str = "", renamed: Mapping[str, str] | None = None) -> Iterator
     table
         The table whose keys the arguments are; empty where errors name their table already.
     renamed
-        What arguments, or the first parts of their names, are called in the file.
+        What arguments, or the beginnings of their dotted names, are called in the file; the
+        longest that fits counts.
 
     Examples
     --------
@@ -60,7 +61,13 @@ def keyed(table: str = "", renamed: Mapping[str, str] | None = None) -> Iterator
     except InputError as error:
         if error.file:  # of another file, whose keys are not ours
             raise
-        first, point, rest = (error.key or "").partition(".")
-        inner = f"{(renamed or {}).get(first, first)}{point}{rest}"
+        inner = _renamed(error.key or "", renamed or {})
         key = re.sub(_INDEX, r".\1", ".".join(part for part in (table, inner) if part))
         raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error
+
+
+def _renamed(key: str, renamed: Mapping[str, str]) -> str:
+    for old in sorted(renamed, key=len, reverse=True):
+        if key == old or key.startswith(f"{old}."):
+            return renamed[old] + key[len(old) :]
+    return key

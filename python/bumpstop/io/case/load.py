@@ -31,7 +31,7 @@ __all__ = ["load_case"]
 BASE = "base"
 """Name of the one variant of a case without variants."""
 
-_IN_TIME = ("stops", "laws", "loads", "initial", "gauges", "outputs")
+_IN_TIME = ("stops", "laws", "loads", "base_motion", "initial", "gauges", "outputs")
 """Tables that mean nothing where nothing is simulated."""
 
 

@@ -171,6 +171,15 @@ impl Cluster {
         }
     }
 
+    /// The block without the columns that drive it.
+    pub(crate) fn own(&self) -> Mat<c64> {
+        let count = self.size - self.drive.len();
+        Mat::from_fn(count, count, |r, c| {
+            let z = self.generator[r * self.size + c];
+            c64::new(z.re, z.im)
+        })
+    }
+
     /// A bound of `|B z| / |z|`.
     pub(crate) fn norm(&self) -> f64 {
         self.norm

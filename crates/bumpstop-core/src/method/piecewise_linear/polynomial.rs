@@ -1,109 +1,118 @@
 //! The polynomial part of a signal.
 
-use crate::forcing::HIGHEST_DEGREE;
-
-/// A load of the highest degree moves a rigid body by two degrees more.
-pub(crate) const COEFFICIENTS: usize = HIGHEST_DEGREE + 3;
-
 /// `sum c_n t^n`, t since the start of the phase. Mostly of degree two at most.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Polynomial {
-    pub coefficients: [f64; COEFFICIENTS],
-    /// Whether any coefficient beyond the third may differ from zero.
-    is_long: bool,
+    /// At least three.
+    coefficients: Vec<f64>,
+}
+
+impl Default for Polynomial {
+    fn default() -> Self {
+        Self {
+            coefficients: vec![0.0; 3],
+        }
+    }
 }
 
 impl Polynomial {
+    /// Turns it into a constant.
     #[inline(always)]
-    pub(crate) fn constant(value: f64) -> Self {
-        let mut polynomial = Self::default();
-        polynomial.coefficients[0] = value;
-        polynomial
+    pub(crate) fn start(&mut self, constant: f64) {
+        self.coefficients.truncate(3);
+        self.coefficients.fill(0.0);
+        self.coefficients[0] = constant;
     }
 
     /// Adds `value t^power`.
     #[inline(always)]
     pub(crate) fn add(&mut self, power: usize, value: f64) {
+        if power >= self.coefficients.len() {
+            self.coefficients.resize(power + 1, 0.0);
+        }
         self.coefficients[power] += value;
-        self.is_long |= power > 2;
     }
 
-    /// The coefficients that may differ from zero.
+    /// All coefficients.
+    #[inline(always)]
     pub(crate) fn terms(&self) -> &[f64] {
-        &self.coefficients[..if self.is_long { COEFFICIENTS } else { 3 }]
+        &self.coefficients
+    }
+
+    /// The first three, which most have alone, and the others.
+    #[inline(always)]
+    fn parts(&self) -> ([f64; 3], &[f64]) {
+        let (short, long) = self.coefficients.split_at(3);
+        ([short[0], short[1], short[2]], long)
     }
 
     /// Adds value, slope and curvature at t.
     #[inline(always)]
     pub(crate) fn add_to(&self, t: f64, values: &mut [f64; 3]) {
-        let c = &self.coefficients;
+        let (c, long) = self.parts();
         values[0] += c[0] + t * (c[1] + t * c[2]);
         values[1] += c[1] + 2.0 * t * c[2];
         values[2] += 2.0 * c[2];
-        if self.is_long {
-            self.add_long_part(t, values);
+        if !long.is_empty() {
+            add_long_part(long, t, values);
         }
-    }
-
-    fn add_long_part(&self, t: f64, values: &mut [f64; 3]) {
-        let (mut value, mut slope, mut curvature) = (0.0, 0.0, 0.0);
-        for n in (3..COEFFICIENTS).rev() {
-            let (c, n) = (self.coefficients[n], n as f64);
-            value = value * t + c;
-            slope = slope * t + n * c;
-            curvature = curvature * t + n * (n - 1.0) * c;
-        }
-        values[0] += value * t * t * t;
-        values[1] += slope * t * t;
-        values[2] += curvature * t;
     }
 
     /// `sum |c_n| t^n`
     #[inline(always)]
     pub(crate) fn size(&self, t: f64) -> f64 {
-        let c = &self.coefficients;
+        let (c, long) = self.parts();
         let short = c[0].abs() + t * (c[1].abs() + t * c[2].abs());
-        if self.is_long {
-            let long = c[3..].iter().rev().fold(0.0, |size, c| size * t + c.abs());
-            return short + long * t * t * t;
+        if long.is_empty() {
+            return short;
         }
-        short
+        short + t * t * t * long.iter().rev().fold(0.0, |size, c| size * t + c.abs())
     }
 
     /// Bound of the third derivative from 0 to t.
     #[inline(always)]
     pub(crate) fn third(&self, t: f64) -> f64 {
-        if !self.is_long {
-            return 0.0;
-        }
-        (3..COEFFICIENTS).rev().fold(0.0, |bound, n| {
-            let c = self.coefficients[n].abs();
-            let n = n as f64;
-            bound * t + n * (n - 1.0) * (n - 2.0) * c
+        let (_, long) = self.parts();
+        let terms = long.iter().enumerate().rev();
+        terms.fold(0.0, |bound, (n, c)| {
+            let n = (n + 3) as f64;
+            bound * t + n * (n - 1.0) * (n - 2.0) * c.abs()
         })
     }
 
     pub(crate) fn derivative(&self) -> Self {
-        let mut rate = Self {
-            is_long: self.is_long,
-            ..Self::default()
-        };
-        for n in 1..COEFFICIENTS {
-            rate.coefficients[n - 1] = n as f64 * self.coefficients[n];
+        let mut rate = Self::default();
+        for (n, c) in self.coefficients.iter().enumerate().skip(1) {
+            rate.add(n - 1, n as f64 * c);
         }
         rate
     }
 
     /// Integral from 0 to t.
     pub(crate) fn integral(&self, t: f64) -> f64 {
-        (0..COEFFICIENTS).rev().fold(0.0, |total, n| {
-            t * (total + self.coefficients[n] / (n + 1) as f64)
-        })
+        let terms = self.coefficients.iter().enumerate().rev();
+        terms.fold(0.0, |total, (n, c)| t * (total + c / (n + 1) as f64))
     }
 
     pub(crate) fn negate(&mut self) {
-        self.coefficients = self.coefficients.map(|c| -c);
+        for c in &mut self.coefficients {
+            *c = -*c;
+        }
     }
+}
+
+/// Adds value, slope and curvature of `t^3 sum c_n t^n`.
+fn add_long_part(coefficients: &[f64], t: f64, values: &mut [f64; 3]) {
+    let (mut value, mut slope, mut curvature) = (0.0, 0.0, 0.0);
+    for (n, c) in coefficients.iter().enumerate().rev() {
+        let n = (n + 3) as f64;
+        value = value * t + c;
+        slope = slope * t + n * c;
+        curvature = curvature * t + n * (n - 1.0) * c;
+    }
+    values[0] += value * t * t * t;
+    values[1] += slope * t * t;
+    values[2] += curvature * t;
 }
 
 /// The coefficient that `t^power` has in the derivative of the given order of a polynomial; a
@@ -139,7 +148,8 @@ mod tests {
 
     #[test]
     fn derivatives_and_integrals_are_those_of_powers() {
-        let mut p = Polynomial::constant(2.0);
+        let mut p = Polynomial::default();
+        p.start(2.0);
         for (power, value) in [(1, -1.0), (2, 0.5), (3, 4.0), (7, -3.0)] {
             p.add(power, value);
         }
@@ -162,18 +172,18 @@ mod tests {
         assert!((p.integral(t) - integral).abs() < 1e-14);
         assert!(p.third(t) >= (24.0 - 630.0 * t.powi(4)).abs());
         for order in -2..=4 {
-            let mut of = p;
+            let mut of = p.clone();
             for _ in 0..order {
                 of = of.derivative();
             }
             let mut direct = [0.0; 3];
             of.add_to(t, &mut direct);
             if order >= 0 {
-                let found = derivative_at(&p.coefficients, order, t);
+                let found = derivative_at(p.terms(), order, t);
                 assert!((found - direct[0]).abs() < 1e-12, "{order}");
             }
         }
-        assert!((derivative_at(&p.coefficients, -1, t) - integral).abs() < 1e-14);
+        assert!((derivative_at(p.terms(), -1, t) - integral).abs() < 1e-14);
         assert_eq!(of_derivative(&[6.0], -2, 2), 3.0);
     }
 }

@@ -91,7 +91,7 @@ impl Signal {
         remaining: f64,
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
-        self.polynomial = Polynomial::constant(function.constant);
+        self.polynomial.start(function.constant);
         self.specials.clear();
         self.resonances.clear();
         self.remaining = remaining;
@@ -352,7 +352,7 @@ impl Signal {
             bounds[0] += size;
             bounds[1] += size * (resonant.lambda.norm() + resonant.omega);
         }
-        let p = self.polynomial.coefficients;
+        let p = self.polynomial.terms();
         [
             ROUNDING * (bounds[0] + p[1].abs()),
             ROUNDING * (bounds[1] + 2.0 * p[2].abs()),

@@ -21,6 +21,8 @@ pub(crate) struct View {
     pub singles: Vec<f64>,
     /// Weight of each link of the response to loads that change in time.
     pub links: Vec<f64>,
+    /// Weight of each column of its gradual exponents.
+    pub gradual: Vec<Complex<f64>>,
     /// Weight of each of its resonances.
     pub resonances: Vec<Complex<f64>>,
 }
@@ -71,6 +73,7 @@ impl View {
             }
         }
         self.links.clear();
+        self.gradual.clear();
         self.resonances.clear();
         if let Some(response) = &spectrum.response {
             self.see_loads(response, row);
@@ -85,6 +88,9 @@ impl View {
         for link in &response.links {
             let seen = row.iter().zip(&link.row).map(|(r, a)| r * a).sum();
             self.links.push(seen);
+        }
+        for row in response.gradual.iter().flat_map(|gradual| &gradual.rows) {
+            self.gradual.push(seen(row));
         }
         for (harmonic, shape) in response.shapes.iter().enumerate() {
             set_entry(&mut self.exponents, response.at + harmonic, seen(shape));

@@ -9,7 +9,7 @@ from bumpstop.io.case.build.basis import built_basis, static_places
 from bumpstop.io.case.build.gauges import built_gauges
 from bumpstop.io.case.build.initial import built_initial
 from bumpstop.io.case.build.laws import built_laws
-from bumpstop.io.case.build.loads import built_loads
+from bumpstop.io.case.build.loads import BASE_MOTION, built_loads
 from bumpstop.io.case.build.source import SOURCES, require_one_source
 from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.tables.structure import StructureTables
@@ -55,7 +55,7 @@ class Builder:
             return Problem(
                 basis,
                 laws=built_laws(case),
-                loads=built_loads(case),
+                loads=built_loads(case, self._folder),
                 initial=initial,
                 duration=run.duration,
                 sample=run.sample,
@@ -88,4 +88,11 @@ def _same_basis(one: CaseFile, other: CaseFile) -> bool:
 def _renamed(case: CaseFile) -> dict[str, str]:
     """Return where in the file the arguments of a problem stand."""
     state = "initial.rotation" if case.initial and case.initial.rotation else "initial.modal"
-    return {"duration": "run.duration", "sample": "run.sample", "initial": state}
+    tables = {f"loads.{name}.time": f"loads.{name}.table" for name in case.loads}
+    base_motion = {
+        f"loads.{BASE_MOTION}": BASE_MOTION,
+        f"loads.{BASE_MOTION}.time": f"{BASE_MOTION}.table",
+    }
+    if case.base_motion is not None:
+        tables |= base_motion
+    return tables | {"duration": "run.duration", "sample": "run.sample", "initial": state}

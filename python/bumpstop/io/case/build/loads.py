@@ -2,26 +2,51 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bumpstop import loads
 from bumpstop.io.case.keys import keyed
 
 if TYPE_CHECKING:
+    from bumpstop.io.case.tables.base_motion import BaseMotionTable
     from bumpstop.io.case.tables.case_file import CaseFile
     from bumpstop.io.case.tables.loads import LoadTable
+    from bumpstop.io.case.tables.time import TimeKeys
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Load
 
-__all__ = ["built_loads"]
+__all__ = ["BASE_MOTION", "built_loads"]
+
+BASE_MOTION = "base_motion"
+"""Table of the motion of the supports, and the name of the load that it makes."""
 
 
-def built_loads(case: CaseFile) -> list[Load]:
-    """Return the loads that the tables describe."""
-    return [_load(name, table) for name, table in case.loads.items()]
+def built_loads(case: CaseFile, folder: Path) -> list[Load]:
+    """Return the loads that the tables describe; files in them are relative to the folder."""
+    built = [_load(name, table, folder) for name, table in case.loads.items()]
+    return built if case.base_motion is None else [*built, _base_motion(case.base_motion, folder)]
 
 
-def _load(name: str, table: LoadTable) -> Load:
+def _load(name: str, table: LoadTable, folder: Path) -> Load:
     with keyed(f"loads.{name}"):
         if table.type == "gravity":
             return loads.Gravity(name, acceleration=table.acceleration)
-        return loads.NodalForce(name, node=table.node, force=table.force, moment=table.moment)
+        time = _time(table, folder)
+        return loads.NodalForce(
+            name, node=table.node, force=table.force, moment=table.moment, time=time
+        )
+
+
+def _base_motion(table: BaseMotionTable, folder: Path) -> Load:
+    with keyed(BASE_MOTION):
+        time = _time(table, folder)
+        return loads.BaseMotion(name=BASE_MOTION, acceleration=table.acceleration, time=time)
+
+
+def _time(table: TimeKeys, folder: Path) -> list[TimeFunction] | None:
+    if not (table.harmonics or table.polynomial or table.table):
+        return None
+    from bumpstop.io.case.build.time import built_time
+
+    return built_time(table, folder)

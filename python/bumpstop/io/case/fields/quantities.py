@@ -20,12 +20,14 @@ __all__ = [
     "Density",
     "Force",
     "Force3",
+    "Frequency",
     "Length",
     "Length2",
     "Length3",
     "LineMass",
     "Mass",
     "Moment3",
+    "Number",
     "Number3",
     "Numbers",
     "PoissonRatio",
@@ -55,6 +57,7 @@ _ACCELERATION = Dimension("an acceleration", "m/s^2", "386 in/s^2")
 _ANGLE = Dimension("an angle", "rad", "90 deg")
 _ANGULAR_RATE = Dimension("an angular rate", "rad/s", "30 deg/s")
 _TIME = Dimension("a time", "s", "20 ms")
+_FREQUENCY = Dimension("a frequency", "Hz", "10 Hz")
 _FORCE = Dimension("a force", "N", "5 kN")
 _MOMENT = Dimension("a moment", "N*m", "5 kN*m")
 
@@ -172,7 +175,9 @@ Force = Annotated[float, _quantity(_FORCE)]
 Mass = Annotated[float, _quantity(_MASS, least=0)]
 Stiffness = Annotated[float, _quantity(_STIFFNESS, above=0)]
 DampingConstant = Annotated[float, _quantity(_DAMPING, least=0)]
+Frequency = Annotated[float, _quantity(_FREQUENCY, above=0)]
 PositiveTime = Annotated[float, _quantity(_TIME, above=0)]
+Number = Annotated[float, _quantity(_NUMBER)]
 PositiveNumber = Annotated[float, _quantity(_NUMBER, above=0)]
 Ratio = Annotated[float, _quantity(_NUMBER, least=0)]
 PoissonRatio = Annotated[float, _quantity(_NUMBER)]

@@ -14,6 +14,7 @@ from bumpstop.io.case.tables.structure import StructureTables
 
 # What a case need not have is loaded with those that have it.
 if TYPE_CHECKING:
+    from bumpstop.io.case.tables.base_motion import BaseMotionTable
     from bumpstop.io.case.tables.components import ComponentTable
     from bumpstop.io.case.tables.joints import JointTable
     from bumpstop.io.case.tables.laws import LawTable
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.outputs import OutputTable
     from bumpstop.io.case.tables.parts import PartTable
 else:
+    BaseMotionTable = later("base_motion", "BaseMotionTable")
     ComponentTable = later("components", "ComponentTable")
     JointTable = later("joints", "JointTable")
     LawTable = later("laws", "LawTable")
@@ -66,6 +68,9 @@ class CaseFile(StructureTables):
         default={}, description="Local nonlinearities other than stops, by name"
     )
     loads: dict[Name, LoadTable] = Field(default={}, description="Loads, by name")
+    base_motion: BaseMotionTable | None = Field(
+        default=None, description="How the supports move, all together"
+    )
     initial: InitialTable | None = Field(default=None, description="The state at t = 0")
     gauges: dict[Name, GaugeTable] = Field(default={}, description="Strain gauges, by name")
     outputs: list[OutputTable] = Field(default=[], description="More motions to write to files")

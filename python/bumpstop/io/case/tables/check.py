@@ -86,6 +86,6 @@ def _schema_of_annotated(annotation: Any, mark: Plain | Later | Kinds) -> CoreSc
 
 
 def kind_words(table: type[Table]) -> tuple[Any, ...]:
-    """Return the words by which a table says its kind: in its first key, a Literal."""
-    first = next(iter(keys_of(table).values()))
-    return get_args(first.annotation)
+    """Return the words by which a table says its kind: in the key that is a Literal."""
+    annotations = (key.annotation for key in keys_of(table).values())
+    return get_args(next(each for each in annotations if get_origin(each) is Literal))

@@ -5,12 +5,13 @@ from typing import Annotated, Literal
 from bumpstop.io.case.fields.quantities import Acceleration3, Force3, Moment3
 from bumpstop.io.case.fields.words import Node
 from bumpstop.io.case.tables.table import Field, Kinds, Table
+from bumpstop.io.case.tables.time import TimeKeys
 
 __all__ = ["ForceTable", "GravityTable", "LoadTable"]
 
 
-class ForceTable(Table):
-    """A constant force on a node, from t = 0 on."""
+class ForceTable(TimeKeys):
+    """A force on a node, from t = 0 on: constant, or times a function of time."""
 
     type: Literal["force"] = Field(description="Kind of load")
     node: Node = Field(description="The node it acts on")

@@ -14,10 +14,12 @@
 //! freely. Where load and motion resonate the part of the resonant exponent is split off, see
 //! [`super::resonance`].
 
+mod gradual;
 mod parts;
 mod single;
 mod slow;
 
+pub(crate) use gradual::{POWERS, Series};
 pub(crate) use single::is_slow;
 
 use super::impedance::Impedance;
@@ -28,6 +30,7 @@ use super::spectrum::Spectrum;
 use crate::error::{Error, Result};
 use crate::forcing::{Forcing, Harmonic, Onset};
 use crate::number::{Complex, LANES};
+use gradual::{Gradual, series_of_others, value_and_slope};
 use parts::{ComplexParts, Parts};
 use slow::SlowLoad;
 
@@ -62,6 +65,7 @@ pub(crate) struct Response {
     /// How the modes follow each harmonic.
     pub shapes: Vec<Vec<Complex<f64>>>,
     pub resonances: Vec<Resonance>,
+    pub gradual: Vec<Gradual>,
     slow: Vec<SlowLoad>,
 }
 
@@ -82,8 +86,13 @@ impl Response {
             omegas: forcing.harmonics().iter().map(|h| h.omega).collect(),
             shapes: Vec::new(),
             resonances: Vec::new(),
+            gradual: Vec::new(),
             slow: SlowLoad::list(forcing, spectrum, duration),
         };
+        let channels = forcing.channels().iter();
+        let directions: Vec<_> = channels.map(|load| load.direction.as_slice()).collect();
+        let modes = response.modes;
+        response.gradual = Gradual::list(&directions, spectrum, modes, duration);
         for (channel, load) in forcing.channels().iter().enumerate() {
             response.add_links(channel, &load.direction, spectrum, impedance)?;
         }
@@ -107,9 +116,14 @@ impl Response {
         impedance: Option<&Impedance<'_>>,
     ) -> Result<()> {
         let parts = Parts::of(spectrum, direction);
-        let groups = group_series(&parts.combined, impedance, self.stride)?;
+        let groups = match series_of_others(spectrum, &parts, self.stride, self.duration) {
+            Some(series) => series,
+            None => group_series(&parts.combined, impedance, self.stride)?,
+        };
         let singles: Vec<_> = (spectrum.singles.iter().zip(&parts.singles))
-            .map(|(single, force)| single::series(&single.motion, *force, self.stride))
+            .map(|(single, force)| {
+                single::series(&single.motion, *force, self.stride, self.duration)
+            })
             .collect();
         for (number, order) in (-2..self.stride as i32).enumerate() {
             let zero = vec![0.0; spectrum.combinations];
@@ -251,6 +265,16 @@ impl Response {
             for ((q, v), row) in q.iter_mut().zip(v.iter_mut()).zip(&link.row) {
                 *q += row * value;
                 *v += row * slope;
+            }
+        }
+        for gradual in &self.gradual {
+            let columns = gradual.series(coefficients, self.stride);
+            for (series, row) in columns.iter().zip(&gradual.rows) {
+                let [value, slope] = value_and_slope(series, t).map(|z| z.scale(sign));
+                for ((q, v), row) in q.iter_mut().zip(v.iter_mut()).zip(row) {
+                    *q = row.add_real_product(value, *q);
+                    *v = row.add_real_product(slope, *v);
+                }
             }
         }
         for (number, (shape, omega)) in self.shapes.iter().zip(&self.omegas).enumerate() {

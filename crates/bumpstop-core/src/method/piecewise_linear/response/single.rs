@@ -1,16 +1,18 @@
 //! How a motion by itself follows loads.
 
+use super::gradual::is_gradual;
 use crate::method::piecewise_linear::resonance::resonates;
 use crate::method::piecewise_linear::single_mode::{Regime, SingleMode};
 use crate::number::Complex;
 
 /// The series of a single motion under a force, from order -2 on; zero for one that is followed by
-/// its Taylor series.
-pub(super) fn series(motion: &SingleMode, force: f64, orders: usize) -> Vec<f64> {
+/// a power series of the time.
+pub(super) fn series(motion: &SingleMode, force: f64, orders: usize, duration: f64) -> Vec<f64> {
     let (w2, c) = (motion.omega2, motion.damping);
     let mut series = vec![0.0; orders + 2];
     let first = match motion.regime {
         Regime::Slow => return series,
+        Regime::Oscillating(lambda) if is_gradual(lambda, duration) => return series,
         Regime::Free => {
             series[0] = force;
             return series;

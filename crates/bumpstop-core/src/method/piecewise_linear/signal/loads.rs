@@ -5,7 +5,7 @@ use crate::law::Affine;
 use crate::method::piecewise_linear::phase::{Phase, Phases};
 use crate::method::piecewise_linear::polynomial::of_derivative;
 use crate::method::piecewise_linear::resonance::Resonant;
-use crate::method::piecewise_linear::response::Response;
+use crate::method::piecewise_linear::response::{POWERS, Response, Series};
 use crate::method::piecewise_linear::rows::{entry, set_entry};
 use crate::method::piecewise_linear::view::View;
 use crate::number::{Complex, LANES};
@@ -40,6 +40,11 @@ impl Signal {
                 }
             }
         }
+        let gradual = response.gradual.iter();
+        let series = gradual.flat_map(|gradual| gradual.series(coefficients, response.stride));
+        for (series, weight) in series.zip(&view.gradual) {
+            self.add_series(&series, *weight, &derivatives);
+        }
         for (resonance, weight) in response.resonances.iter().zip(&view.resonances) {
             let unit = phases.unit(phase, response, resonance.harmonic);
             let resonant = response.resonant(resonance, unit, *weight);
@@ -49,6 +54,22 @@ impl Signal {
             let [own, load] = resonant.times(Complex::real(acceleration)).rate();
             self.add_resonant_rate(resonant.with_weight(own));
             self.add_load_term(&resonant, load * Complex::new(0.0, resonant.omega));
+        }
+    }
+
+    /// Adds the power series of an exponent, and its derivatives with factors of their own.
+    fn add_series(&mut self, series: &Series, weight: Complex<f64>, derivatives: &[f64; 3]) {
+        let mut terms = series.map(|c| weight.real_product(c));
+        for factor in derivatives {
+            if *factor != 0.0 {
+                for (power, term) in terms.iter().enumerate() {
+                    self.polynomial.add(power, factor * term);
+                }
+            }
+            for n in 1..POWERS {
+                terms[n - 1] = n as f64 * terms[n];
+            }
+            terms[POWERS - 1] = 0.0;
         }
     }
 

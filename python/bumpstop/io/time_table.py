@@ -1,0 +1,121 @@
+"""Functions of time in text files: accelerograms, histories of forces.
+
+Columns are parted by commas, semicolons or blanks; lines that begin with ``#`` or ``%`` are
+remarks, and a first line that holds no numbers names the columns.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, did_you_mean
+from bumpstop.errors import InputError
+from bumpstop.io.reading import in_file, read_lines
+
+__all__ = ["read_time_table"]
+
+_PARTED = r"[,;\s]+"
+_REMARKS = ("#", "%")
+
+
+def read_time_table(
+    path: Path, *, columns: Sequence[float | str] | None = None, step: float | None = None
+) -> tuple[FloatArray, FloatArray]:
+    """Read times and values.
+
+    Parameters
+    ----------
+    path
+        The file.
+    columns
+        Of times and of values, by number from 1 or by name; the first two where left out.
+    step
+        Time between values in s, for a file without times: all its numbers are values.
+
+    Returns
+    -------
+    tuple
+        Times in s and values, (K,) each.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, has no such columns, or a line holds something else.
+    """
+    with in_file(path):
+        rows = _rows(path)
+        names = [] if not rows or _is_numbers(rows[0][1]) else rows.pop(0)[1]
+        if not rows:
+            raise InputError("holds no numbers", hint="one line for each time, like '0.01, 2.5'")
+        if step is not None:
+            if columns is not None:
+                raise InputError("has values alone where a step is given", key="columns")
+            values = np.array([_number(n, word) for n, words in rows for word in words])
+            return step * np.arange(len(values), dtype=np.float64), values
+        first, second = _places(columns, names, len(rows[0][1]))
+        least = max(first, second) + 1
+        for number, words in rows:
+            if len(words) < least:
+                what = f"line {number} has {_columns(len(words))}, but {least} are needed"
+                raise InputError(what, value=" ".join(words[:6]))
+        picked = [(_number(n, words[first]), _number(n, words[second])) for n, words in rows]
+        table = np.array(picked)
+        return np.ascontiguousarray(table[:, 0]), np.ascontiguousarray(table[:, 1])
+
+
+def _rows(path: Path) -> list[tuple[int, list[str]]]:
+    """Return the lines that are no remarks, in words, with their numbers."""
+    parted = re.compile(_PARTED)
+    lines = ((n, line.strip()) for n, line in enumerate(read_lines(path, "a table"), start=1))
+    return [
+        (n, parted.split(line.strip(",;")))
+        for n, line in lines
+        if line and not line.startswith(_REMARKS)
+    ]
+
+
+def _places(columns: Sequence[float | str] | None, names: list[str], count: int) -> tuple[int, int]:
+    """Return where in a line time and value stand, from 0."""
+    if columns is None:
+        if count < 2:
+            hint = "give the step between its values, or columns of times and values"
+            raise InputError(f"has {_columns(count)}, not times and values", hint=hint)
+        return 0, 1
+    if len(columns) != 2:
+        raise InputError("must be two columns, of times and of values", key="columns")
+    first, second = (_place(column, names, count) for column in columns)
+    return first, second
+
+
+def _place(column: float | str, names: list[str], count: int) -> int:
+    if isinstance(column, str):
+        if column not in names:
+            hint = did_you_mean(column, names)
+            raise InputError("has no such column", key="columns", value=column, hint=hint)
+        return names.index(column)
+    if column != int(column) or not 1 <= column <= count:
+        hint = f"they are numbered 1 to {count}"
+        raise InputError("has no such column", key="columns", value=column, hint=hint)
+    return int(column) - 1
+
+
+def _columns(count: int) -> str:
+    return f"{count} column" if count == 1 else f"{count} columns"
+
+
+def _is_numbers(words: list[str]) -> bool:
+    try:
+        return bool([float(word) for word in words])
+    except ValueError:
+        return False
+
+
+def _number(line: int, word: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        raise InputError(f"line {line} holds no number", value=word) from None

@@ -1,0 +1,131 @@
+"""Loads that change in time, in case files."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+
+MAST = """
+[nodes]
+A = [0, 0, 0]
+B = [1, 0, 0]
+[masses.b]
+node = "B"
+mass = 2.0
+[springs.ab]
+node = "B"
+other = "A"
+stiffness = 800.0
+[[supports]]
+nodes = ["A"]
+fixed = ["dx", "dy", "dz"]
+[[supports]]
+nodes = ["B"]
+fixed = ["dy", "dz"]
+[basis]
+modes = 1
+[run]
+duration = 2.0
+"""
+
+
+def case(folder: Path, text: str) -> bs.Problem:
+    (folder / "case.toml").write_text(MAST + text)
+    return bs.load_case(folder / "case.toml").problems["base"]
+
+
+def test_terms_of_a_load_add_up(tmp_path: Path) -> None:
+    problem = case(
+        tmp_path,
+        '[loads.push]\ntype = "force"\nnode = "B"\nforce = ["2 N", 0, 0]\n'
+        'harmonics = [{ frequency = "3 Hz", cosine = 0.5 }, { frequency = 1, sine = 2 }]\n'
+        "polynomial = [1.0, -0.5]\n"
+        'table = { times = [0, "500 ms"], values = [1, 3], scale = 2, beyond = "hold" }\n',
+    )
+    (push,) = problem.loads
+    times = np.array([0.25, 1.0])
+    total = sum(function.at(times) for function in push.functions)
+    turn = 2.0 * np.pi * times
+    expected = 0.5 * np.cos(3 * turn) + 2 * np.sin(turn) + 1 - 0.5 * times + np.array([4.0, 6.0])
+    np.testing.assert_allclose(total, expected, rtol=1e-14)
+    assert bs.simulate(problem).history.event_count == 0
+
+
+def test_the_supports_move_by_a_file(tmp_path: Path) -> None:
+    times = np.linspace(0.0, 1.5, 16)
+    values = np.sin(7.0 * times)
+    lines = [f"{t},{a}" for t, a in zip(times.tolist(), values.tolist(), strict=True)]
+    (tmp_path / "quake.csv").write_text("\n".join(["t,a", *lines]))
+    problem = case(
+        tmp_path,
+        '[base_motion]\nacceleration = ["9.81 m/s^2", 0, 0]\n'
+        'table = { file = "quake.csv", columns = ["t", "a"], beyond = "zero" }\n',
+    )
+    table = bs.TimeTable(times, values, beyond="zero")
+    shake = bs.BaseMotion(acceleration=(9.81, 0, 0), time=table)
+    again = bs.Problem(problem.basis, loads=[shake], duration=2.0)
+    found, expected = (
+        bs.simulate(each).displacement("B", "dx").to_numpy() for each in (problem, again)
+    )
+    np.testing.assert_array_equal(found, expected)
+    assert abs(found).max() > 0.0
+
+
+LOAD = '[loads.push]\ntype = "force"\nnode = "B"\nforce = [1, 0, 0]\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "what"),
+    [
+        (LOAD + "polynomial = [1, 1, 1, 1, 1, 1, 1]\n", "loads.push.polynomial", "degree 5"),
+        (
+            LOAD + "harmonics = [{ frequency = 0 }]\n",
+            "loads.push.harmonics.0.frequency",
+            "positive",
+        ),
+        (
+            LOAD + "harmonics = [{ frequency = 1, cosin = 1 }]\n",
+            "loads.push.harmonics.0.cosin",
+            "unk",
+        ),
+        (LOAD + "table = {}\n", "loads.push.table", "needs a file, or times and values"),
+        (
+            LOAD + "table = { times = [0, 1], values = [1] }\n",
+            "loads.push.table.values",
+            "one value",
+        ),
+        (
+            LOAD + "table = { times = [0, 2, 1], values = [0, 0, 0] }\n",
+            "loads.push.table.times",
+            "must not go backwards",
+        ),
+        (
+            LOAD + "table = { times = [0, 1], values = [0, 0] }\n",
+            "loads.push.table",
+            "does not cover the run",
+        ),
+        (
+            LOAD + 'table = { file = "a.csv", times = [0, 1] }\n',
+            "loads.push.table.times",
+            "is in the file",
+        ),
+        (LOAD + "table = { step = 1, times = [0] }\n", "loads.push.table.step", "is for a file"),
+        (
+            "[base_motion]\nacceleration = [1, 0, 0]\ntable = { times = [0], values = [1] }\n",
+            "base_motion.table",
+            "does not cover the run",
+        ),
+    ],
+)
+def test_mistakes_are_named(tmp_path: Path, text: str, key: str, what: str) -> None:
+    with pytest.raises(bs.InputError, match=what) as caught:
+        case(tmp_path, text)
+    assert caught.value.key == key
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(bs.InputError, match=r"nowhere\.csv: no such file"):
+        case(tmp_path, LOAD + 'table = { file = "nowhere.csv" }\n')
