@@ -166,12 +166,12 @@ impl Forcing {
         }
     }
 
-    /// The forces at t = 0 and their rates just after it.
-    pub fn at_start(&self) -> [Vec<f64>; 2] {
+    /// The forces at a time and their rates just after it.
+    pub fn around(&self, time: f64) -> [Vec<f64>; 2] {
         let (mut forces, mut rates) = (self.constant.clone(), vec![0.0; self.constant.len()]);
-        self.at(0.0, &mut forces);
+        self.at(time, &mut forces);
         let mut onset = Onset::default();
-        self.onset(0.0, &mut Vec::new(), &mut onset);
+        self.onset(time, &mut Vec::new(), &mut onset);
         let stride = self.stride().max(1);
         for (channel, coefficients) in self.channels.iter().zip(onset.coefficients.chunks(stride)) {
             let slope = coefficients.get(1).copied().unwrap_or(0.0);
@@ -180,8 +180,9 @@ impl Forcing {
             }
         }
         for harmonic in &self.harmonics {
+            let turning = harmonic.unit(time) * Complex::new(0.0, harmonic.omega);
             for (rate, amplitude) in rates.iter_mut().zip(&harmonic.amplitude) {
-                *rate -= harmonic.omega * amplitude.im;
+                *rate += amplitude.real_product(turning);
             }
         }
         [forces, rates]

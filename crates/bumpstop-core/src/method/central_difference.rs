@@ -240,7 +240,7 @@ impl<I: Instructions, B: Count> Contact<I, B> {
 /// `q[-1] = q0 - dt v0 + dt^2/2 a0`, which starts the scheme at its own order.
 fn displacement_before<L: Law>(problem: &Problem<L>, dt: f64) -> Vec<f64> {
     let (q, v) = (&problem.displacement, &problem.velocity);
-    let [mut forces, _] = problem.forcing.at_start();
+    let [mut forces, _] = problem.forcing.around(0.0);
     for law in &problem.laws {
         let (position, rate) = (project(law, q), project(law, v));
         let force = law.force(first_state(law, problem), &position, &rate);

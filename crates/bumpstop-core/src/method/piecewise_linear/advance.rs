@@ -41,12 +41,13 @@ impl Bracket {
 }
 
 /// A guard that is watched.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Start {
     /// Positive at the start of the phase.
     Positive,
-    /// Zero there: it has just switched, and departs.
-    Zero,
+    /// Zero there: it has just switched, and departs. With slope and curvature where they are
+    /// known better than from the signal.
+    Zero(Option<[f64; 2]>),
 }
 
 /// The zero that was found.
@@ -104,7 +105,7 @@ impl Path<'_> {
     /// Whether a guard leaves zero at this time.
     #[inline(always)]
     fn departs(&self, watched: usize, time: f64) -> bool {
-        time == self.from && self.starts[watched] == Start::Zero
+        time == self.from && matches!(self.starts[watched], Start::Zero(_))
     }
 }
 
@@ -284,7 +285,7 @@ impl Walk {
     ) -> Sight {
         let signal = &path.signals[watched];
         if path.departs(watched, time) {
-            return self.depart::<I>(path, signal, time, width);
+            return self.depart::<I>(path, watched, time, width);
         }
         let radius = 0.5 * width;
         let at = Instant {
@@ -310,10 +311,11 @@ impl Walk {
     fn depart<I: Instructions>(
         &mut self,
         path: &Path<'_>,
-        signal: &Signal,
+        watched: usize,
         time: f64,
         width: f64,
     ) -> Sight {
+        let signal = &path.signals[watched];
         let at = Instant {
             time,
             exponentials: &self.left,
@@ -324,17 +326,16 @@ impl Walk {
         } else {
             signal.values::<I>(path.phases, path.phase, &at)
         };
-        let noise = signal.rate_rounding(path.phases, path.phase);
-        jet.slope = if full[1].abs() <= noise[0] {
-            0.0
-        } else {
-            full[1]
+        let known = match path.starts[watched] {
+            Start::Zero(known) => known,
+            Start::Positive => None,
         };
-        let curvature = if full[2].abs() <= noise[1] {
-            0.0
-        } else {
-            full[2]
-        };
+        let [slope, curvature] = known.unwrap_or_else(|| {
+            let noise = signal.rate_rounding(path.phases, path.phase);
+            let beyond = |value: f64, noise: f64| if value.abs() > noise { value } else { 0.0 };
+            [beyond(full[1], noise[0]), beyond(full[2], noise[1])]
+        });
+        jet.slope = slope;
         if jet.slope < 0.0 || (jet.slope == 0.0 && curvature < 0.0) {
             return Sight::AtOnce;
         }

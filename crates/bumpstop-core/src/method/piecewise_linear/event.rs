@@ -2,6 +2,7 @@
 //! one reaches zero.
 
 use super::advance::{Crossing, Start};
+use super::instant::{self, Moment};
 use super::phase::{Phase, Phases};
 use super::rows::ComplexBlock;
 use super::signal::{Instant, Signal};
@@ -9,6 +10,11 @@ use crate::history::Event;
 use crate::law::{Affine, Guard, Law, LocalMotion};
 use crate::number::{Instructions, Plain};
 use crate::problem::Problem;
+
+/// The slope of a guard that starts at zero is asked of the equations of motion where the
+/// spectrum's is below this many times its rounding: the errors of the spectrum itself, which on
+/// a stiff stop are larger than that, must not decide where the motion goes.
+const DOUBTFUL: f64 = 1e6;
 
 /// The guards of all laws in their present states.
 #[derive(Debug, Default)]
@@ -29,8 +35,14 @@ impl Watch {
         phases: &Phases,
         phase: Phase,
         fired: Option<(usize, Guard)>,
+        [q, v]: [&[f64]; 2],
     ) {
         let states = phases.states(phase);
+        let moment = Moment {
+            time: phase.start,
+            displacement: q,
+            velocity: v,
+        };
         let views = &phases.spectra[phase.spectrum].views;
         self.guards.clear();
         self.starts.clear();
@@ -50,16 +62,21 @@ impl Watch {
                 let before = fired
                     .filter(|(law, _)| *law == index)
                     .map(|(_, fired)| fired);
-                if before.is_some_and(|fired| function.rises_with(&fired.function)) {
+                let flat = before.is_some_and(|fired| function.rises_with(&fired.function));
+                if flat {
                     signal.start_flat(phases, phase);
                 }
                 let same = before.is_some_and(|fired| fired.function.is_multiple_of(function));
-                let zero = same || {
-                    let [value, ..] = signal.values_at_start(phases, phase);
-                    value.abs() <= signal.rounding(0.0) || value < 0.0
-                };
-                self.starts
-                    .push(if zero { Start::Zero } else { Start::Positive });
+                let [value, slope, _] = signal.values_at_start(phases, phase);
+                let zero = same || value.abs() <= signal.rounding(0.0) || value < 0.0;
+                let noise = signal.rate_rounding(phases, phase)[0];
+                self.starts.push(if !zero {
+                    Start::Positive
+                } else if flat || slope.abs() > DOUBTFUL * noise {
+                    Start::Zero(None)
+                } else {
+                    Start::Zero(instant::rates(problem, states, index, function, moment))
+                });
             }
             first_view += law.rows().len();
         }

@@ -16,7 +16,7 @@ mod enclosure;
 mod event;
 mod grouping;
 mod impedance;
-mod initial;
+mod instant;
 mod jet;
 mod phase;
 mod polynomial;
@@ -130,7 +130,7 @@ impl<'a, L: Law> Run<'a, L> {
     #[inline(always)]
     fn advance<I: Instructions>(&mut self, observer: Observer<'_>) -> Result<()> {
         let problem = self.problem;
-        let mut states = initial::states(problem);
+        let mut states = instant::initial_states(problem);
         let (mut q, mut v) = (problem.displacement.clone(), problem.velocity.clone());
         let mut time = 0.0;
         self.scratch.walk.start(problem.duration);
@@ -145,7 +145,7 @@ impl<'a, L: Law> Run<'a, L> {
             let phase = self.phases.list[self.phases.list.len() - 1];
             self.scratch
                 .watch
-                .set::<I, L>(problem, &self.phases, phase, fired);
+                .set::<I, L>(problem, &self.phases, phase, fired, [&q, &v]);
             let path = Path {
                 phases: &self.phases,
                 phase,

@@ -140,7 +140,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
         let mut start = if rate.orient(phases, phase) {
             Start::Positive
         } else {
-            Start::Zero
+            Start::Zero(None)
         };
         let limit = MOST_TURNING_POINTS;
         while found.len() < limit {
@@ -161,7 +161,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
                 found.push(zero.time);
             }
             from = zero.time;
-            start = Start::Zero;
+            start = Start::Zero(None);
             rate.negate();
         }
         found

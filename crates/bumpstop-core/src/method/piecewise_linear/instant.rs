@@ -1,17 +1,33 @@
-//! The laws' states at the start of a run.
+//! What the equations of motion say of the laws' local motion at one instant, without a spectrum.
 
-use crate::law::{COORDINATES, Law, Local, LocalMotion, Piece, State, project};
+use crate::law::{Affine, COORDINATES, Law, Local, LocalMotion, Piece, State, project};
 use crate::problem::Problem;
+
+/// The structure's state at an instant.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment<'a> {
+    /// In s since the start of the run.
+    pub time: f64,
+    /// Modal displacement and velocity.
+    pub displacement: &'a [f64],
+    pub velocity: &'a [f64],
+}
 
 /// The laws' states at t = 0, each from the motion that the structure would have without that
 /// law. One that is just touched is decided by accelerations, and so by what the others push:
 /// they are gone through until nothing changes.
-pub(crate) fn states<L: Law>(problem: &Problem<L>) -> Vec<State> {
+pub(crate) fn initial_states<L: Law>(problem: &Problem<L>) -> Vec<State> {
+    let moment = Moment {
+        time: 0.0,
+        displacement: &problem.displacement,
+        velocity: &problem.velocity,
+    };
     let mut states = vec![State::FIRST; problem.laws.len()];
     for _ in 0..problem.laws.len() {
         let mut settled = true;
         for (index, law) in problem.laws.iter().enumerate() {
-            let state = law.initial_state(&motion_without(problem, &states, index));
+            let motion = local_motion(problem, &states, Some(index), index, moment);
+            let state = law.initial_state(&motion);
             settled &= state == states[index];
             states[index] = state;
         }
@@ -22,10 +38,43 @@ pub(crate) fn states<L: Law>(problem: &Problem<L>) -> Vec<State> {
     states
 }
 
-/// The local motion of one law at t = 0 while it does not act, but the others do.
-fn motion_without<L: Law>(problem: &Problem<L>, states: &[State], without: usize) -> LocalMotion {
-    let (q, v) = (&problem.displacement, &problem.velocity);
-    let [forces, force_rates] = problem.forcing.at_start();
+/// Slope and curvature of a function of one law's local motion; zero where they are rounding.
+/// `None` for functions of accelerations, whose curvature is a derivative too far.
+#[cold]
+pub(crate) fn rates<L: Law>(
+    problem: &Problem<L>,
+    states: &[State],
+    law: usize,
+    function: &Affine,
+    moment: Moment<'_>,
+) -> Option<[f64; 2]> {
+    if function.acceleration != [0.0; COORDINATES] {
+        return None;
+    }
+    let motion = local_motion(problem, states, None, law, moment);
+    let of_order = |order: usize| {
+        let (mut value, mut zero) = (0.0, 0.0);
+        for i in 0..COORDINATES {
+            value += function.position[i] * motion.derivatives[order][i];
+            value += function.velocity[i] * motion.derivatives[order + 1][i];
+            zero += function.position[i].abs() * motion.zero[order];
+            zero += function.velocity[i].abs() * motion.zero[order + 1];
+        }
+        if value.abs() > zero { value } else { 0.0 }
+    };
+    Some([of_order(1), of_order(2)])
+}
+
+/// The local motion of one law, all laws but `without` acting.
+fn local_motion<L: Law>(
+    problem: &Problem<L>,
+    states: &[State],
+    without: Option<usize>,
+    of: usize,
+    moment: Moment<'_>,
+) -> LocalMotion {
+    let (q, v) = (moment.displacement, moment.velocity);
+    let [forces, force_rates] = problem.forcing.around(moment.time);
     let accelerations: Vec<Term> = (0..q.len())
         .map(|mode| {
             let mut sum = Term::of(forces[mode]);
@@ -52,7 +101,7 @@ fn motion_without<L: Law>(problem: &Problem<L>, states: &[State], without: usize
         sum
     };
     let mut motion = LocalMotion::default();
-    for (coordinate, row) in problem.laws[without].rows().iter().enumerate() {
+    for (coordinate, row) in problem.laws[of].rows().iter().enumerate() {
         for (mode, factor) in row.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
             let terms = [
                 Term::of(q[mode]),
@@ -71,14 +120,14 @@ fn motion_without<L: Law>(problem: &Problem<L>, states: &[State], without: usize
     motion
 }
 
-/// The laws but one, with their states.
+/// The laws, without one where that is told, and their states.
 fn others<'a, L: Law>(
     problem: &'a Problem<L>,
     states: &'a [State],
-    without: usize,
+    without: Option<usize>,
 ) -> impl Iterator<Item = (&'a L, State)> {
     let all = problem.laws.iter().zip(states).enumerate();
-    all.filter(move |(index, _)| *index != without)
+    all.filter(move |(index, _)| Some(*index) != without)
         .map(|(_, (law, state))| (law, *state))
 }
 
