@@ -155,6 +155,11 @@ impl Cluster {
         }
     }
 
+    /// How many of its last columns drive it, and stay as they are.
+    pub(crate) fn drives(&self) -> usize {
+        self.drive.len()
+    }
+
     /// `B z`, what drives it included.
     pub(crate) fn rate(&self, z: &Columns) -> Columns {
         applied(&self.generator, self.size, z)
