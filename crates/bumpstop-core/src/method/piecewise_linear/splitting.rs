@@ -113,7 +113,7 @@ impl Sets {
     /// Joins two exponents and their conjugates, if there is room in a block for them; tells
     /// whether it has.
     fn join(&mut self, a: usize, b: usize) -> bool {
-        if self.label[a] == self.label[b] || self.size_of(a) + self.size_of(b) > MOST / 2 {
+        if self.label[a] == self.label[b] || self.size_together(a, b) > MOST / 2 {
             return false;
         }
         for (a, b) in [(a, b), (self.conjugate[a], self.conjugate[b])] {
@@ -185,6 +185,16 @@ impl Sets {
             }
         }
         joined
+    }
+
+    /// How many exponents are in one set after two have been joined, and their conjugates: all
+    /// of them where a set meets a conjugate one.
+    fn size_together(&self, a: usize, b: usize) -> usize {
+        let own = [self.label[a], self.label[b]];
+        let conjugate = [a, b].map(|j| self.label[self.conjugate[j]]);
+        let meet = own.iter().any(|label| conjugate.contains(label));
+        let joins = |label: &&usize| own.contains(label) || meet && conjugate.contains(label);
+        self.label.iter().filter(joins).count()
     }
 
     /// How many exponents are in the set of one.
