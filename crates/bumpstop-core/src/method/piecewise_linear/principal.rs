@@ -8,6 +8,15 @@ use super::coupled::Coupled;
 use crate::error::{Error, Result};
 use faer::{Mat, Side, c64};
 
+/// The least eigenvalue of a stiffness scaled to a diagonal of ones for which the groups' own
+/// coordinates are kept: axes of the stiffness are good to rounding of its largest eigenvalue,
+/// which is the square of what the state matrix has, and slow motions would feel it.
+const WELL_SCALED: f64 = 1e-6;
+
+/// How far apart squared frequencies are, relative to the larger one, whose eigenvectors need no
+/// axes to be told from each other.
+const APART: f64 = 1e-5;
+
 /// The state `(s x, x')` with groups `y = V x`.
 pub(crate) struct Principal {
     axes: Mat<f64>,
@@ -21,25 +30,20 @@ impl Principal {
     /// The coordinates for a run of the given length: what is slower is measured by it.
     pub(crate) fn new(coupled: &Coupled, duration: f64) -> Result<Self> {
         let n = coupled.stiffness.nrows();
-        let (stiffness, damping) = (&coupled.stiffness, &coupled.damping);
-        let symmetric = Mat::from_fn(n, n, |r, c| 0.5 * (stiffness[(r, c)] + stiffness[(c, r)]));
-        let skew = Mat::from_fn(n, n, |r, c| 0.5 * (stiffness[(r, c)] - stiffness[(c, r)]));
-        let eigen = (symmetric.self_adjoint_eigen(Side::Lower)).map_err(|_| Error::Eigenvalues)?;
-        let axes = eigen.U().to_owned();
-        let values: Vec<f64> = (0..n).map(|i| eigen.S()[i]).collect();
-        let scales: Vec<f64> = (values.iter())
-            .map(|mu| mu.abs().sqrt().max(1.0 / duration))
+        let (axes, stiffness) = if is_well_scaled(&coupled.stiffness)? {
+            (Mat::identity(n, n), coupled.stiffness.clone())
+        } else {
+            on_axes(&coupled.stiffness)?
+        };
+        let scales: Vec<f64> = (0..n)
+            .map(|i| stiffness[(i, i)].abs().sqrt().max(1.0 / duration))
             .collect();
-        let turned = |matrix: &Mat<f64>| axes.transpose() * matrix * &axes;
-        let (skew, damping) = (turned(&skew), turned(damping));
+        let damping = axes.transpose() * &coupled.damping * &axes;
         let state = Mat::from_fn(2 * n, 2 * n, |r, c| match (r < n, c < n) {
             (true, true) => 0.0,
             (true, false) if r + n == c => scales[r],
             (true, false) => 0.0,
-            (false, true) => {
-                let own = if r - n == c { values[c] } else { 0.0 };
-                -(own + skew[(r - n, c)]) / scales[c]
-            }
+            (false, true) => -stiffness[(r - n, c)] / scales[c],
             (false, false) => -damping[(r - n, c - n)],
         });
         let push = axes.transpose() * &coupled.force;
@@ -78,4 +82,37 @@ impl Principal {
         let n = self.scales.len();
         Mat::from_fn(n, n, |r, c| c64::new(self.axes[(r, c)], 0.0))
     }
+}
+
+/// Whether the groups' own coordinates serve: moderate springs between them, and squared
+/// frequencies apart from each other.
+fn is_well_scaled(stiffness: &Mat<f64>) -> Result<bool> {
+    let n = stiffness.nrows();
+    if (0..n).any(|i| stiffness[(i, i)] <= 0.0) {
+        return Ok(false);
+    }
+    let values = |unit: fn(f64) -> f64| {
+        let symmetric = Mat::from_fn(n, n, |r, c| {
+            let size = unit(stiffness[(r, r)]) * unit(stiffness[(c, c)]);
+            0.5 * (stiffness[(r, c)] + stiffness[(c, r)]) / size
+        });
+        (symmetric.self_adjoint_eigenvalues(Side::Lower)).map_err(|_| Error::Eigenvalues)
+    };
+    let [scaled, squares] = [values(f64::sqrt)?, values(|_| 1.0)?];
+    let apart = |pair: &[f64]| pair[1] - pair[0] > APART * pair[1];
+    Ok(scaled.iter().all(|value| *value > WELL_SCALED) && squares.windows(2).all(apart))
+}
+
+/// The axes of the symmetric part, and the stiffness along them.
+fn on_axes(stiffness: &Mat<f64>) -> Result<(Mat<f64>, Mat<f64>)> {
+    let n = stiffness.nrows();
+    let symmetric = Mat::from_fn(n, n, |r, c| 0.5 * (stiffness[(r, c)] + stiffness[(c, r)]));
+    let skew = Mat::from_fn(n, n, |r, c| 0.5 * (stiffness[(r, c)] - stiffness[(c, r)]));
+    let eigen = (symmetric.self_adjoint_eigen(Side::Lower)).map_err(|_| Error::Eigenvalues)?;
+    let axes = eigen.U().to_owned();
+    let mut turned = axes.transpose() * skew * &axes;
+    for i in 0..n {
+        turned[(i, i)] += eigen.S()[i];
+    }
+    Ok((axes, turned))
 }
