@@ -1,6 +1,7 @@
 //! Loads that change in time, against the matrix exponential of the system with the loads' own
 //! generators appended: `w' = [A P; 0 S] w`.
 
+use bumpstop_core::error::Error;
 use bumpstop_core::forcing::{Beyond, Forcing, Table};
 use bumpstop_core::history::{Derivative, History};
 use bumpstop_core::law::Stop;
@@ -64,8 +65,8 @@ impl Case {
         Arc::new(Problem::new(system, vec![stop], forcing, q, v, self.duration).unwrap())
     }
 
-    fn run(&self, method: Method) -> History<Stop> {
-        simulate(&self.problem(), method, &mut |_| true).unwrap()
+    fn run(&self, method: Method) -> Result<History<Stop>, Error> {
+        simulate(&self.problem(), method, &mut |_| true)
     }
 
     /// Displacements and velocities at a time.
@@ -182,15 +183,26 @@ fn flow(matrix: &[Vec<f64>], vector: &[f64], t: f64) -> Vec<f64> {
     state
 }
 
+/// What loads of order one move in times of order one: motions that are smaller are what is left
+/// of such, and are right to its rounding.
+const MOVED: f64 = 0.1;
+
+/// How well the ledger closes: what follows a polynomial of degree five on a slow, nearly critical
+/// motion is the difference of polynomials a thousand times as large, and energies go with squares.
+const CLOSED: f64 = 1e-7;
+
 fn check(case: &Case, tolerance: f64) -> Result<(), TestCaseError> {
+    // A harmonic that hardly turns in the whole run is refused beside motions as slow as it.
     let history = case.run(Method::Exact);
+    prop_assume!(!matches!(history, Err(Error::NoRest)));
+    let history = history.unwrap();
     let fractions = [0.0, 0.13, 0.5, 0.77, 1.0];
     let times = fractions.map(|part| part * case.duration);
     let expected: Vec<_> = times.iter().map(|t| case.expected(*t)).collect();
     let sizes: Vec<f64> = [0..MODES, MODES..2 * MODES]
         .map(|part| {
             let all = expected.iter().flat_map(|state| &state[part.clone()]);
-            all.fold(1e-3, |m: f64, x| m.max(x.abs()))
+            all.fold(MOVED, |m: f64, x| m.max(x.abs()))
         })
         .into();
     for (order, size) in [Derivative::Displacement, Derivative::Velocity]
@@ -204,8 +216,11 @@ fn check(case: &Case, tolerance: f64) -> Result<(), TestCaseError> {
             }
         }
     }
-    let residual = history.energy_residual();
-    prop_assert!(residual < tolerance, "energy residual {residual:e}");
+    // The ledger is measured by its own largest energy, which may be as little as one likes.
+    if expected.iter().flatten().any(|x| x.abs() >= MOVED) {
+        let residual = history.energy_residual();
+        prop_assert!(residual < CLOSED, "energy residual {residual:e}");
+    }
     Ok(())
 }
 
@@ -344,7 +359,7 @@ fn an_undamped_oscillator_grows_without_end() {
         v: [0.0; MODES],
         duration: 200.0,
     };
-    let history = case.run(Method::Exact);
+    let history = case.run(Method::Exact).unwrap();
     for n in 1..=50 {
         let t = 4.0 * f64::from(n);
         let found = history.motion(&[t], Derivative::Displacement).unwrap()[0];
@@ -373,10 +388,12 @@ fn fixed_steps_converge_at_their_order() {
     };
     let expected = case.expected(2.0);
     let error = |method: fn(Step) -> Method, dt: f64| {
-        let history = case.run(method(Step {
-            dt,
-            beyond_stability_limit: false,
-        }));
+        let history = case
+            .run(method(Step {
+                dt,
+                beyond_stability_limit: false,
+            }))
+            .unwrap();
         let found = history.motion(&[2.0], Derivative::Displacement).unwrap();
         let errors = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
         errors.fold(0.0, f64::max)
