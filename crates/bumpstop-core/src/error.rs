@@ -109,6 +109,36 @@ pub enum Error {
         /// The method.
         method: &'static str,
     },
+    /// A restitution out of its range.
+    #[error("the restitution of a rigid stop must be from 0 to 1 (got {value})")]
+    Restitution {
+        /// Its value.
+        value: f64,
+    },
+    /// A run starts inside a rigid stop.
+    #[error("the run starts {depth:e} m inside rigid stop {law} (counted from 0 among the laws)")]
+    InsideStop {
+        /// The stop.
+        law: usize,
+        /// How deep, in m.
+        depth: f64,
+    },
+    /// The law of impact asks for what cannot be.
+    #[error(
+        "stops that are touched together at t = {time:e} s ask for speeds that exclude each other; give them the same restitution"
+    )]
+    NoImpactLaw {
+        /// Instant, in s.
+        time: f64,
+    },
+    /// A method that needs forces was given a rigid stop.
+    #[error(
+        "the {method} method does not take rigid stops; the exact method does, or give the stop a stiffness"
+    )]
+    RigidStops {
+        /// The method.
+        method: &'static str,
+    },
     /// A fixed step would be unstable.
     #[error("a step of {dt:e} s is above the stability limit of {method}, {limit:e} s")]
     Unstable {

@@ -1,5 +1,6 @@
 //! What a run leaves behind: the motion at any instant, events, impacts and energies.
 
+use crate::dynamics::Moment;
 use crate::energy::{self, Ledger};
 use crate::error::{Error, Result, check_length};
 use crate::impacts::{Impact, Sample};
@@ -35,6 +36,8 @@ pub enum Derivative {
     Acceleration,
 }
 
+// One a run, never moved about in numbers.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone)]
 enum Record {
     Steps(StepRecord),
@@ -155,7 +158,15 @@ impl<L: Law> History<L> {
         self.visit(times, |time, q, v, states| match derivative {
             Derivative::Displacement => rows.extend_from_slice(q),
             Derivative::Velocity => rows.extend_from_slice(v),
-            Derivative::Acceleration => rows.extend(self.acceleration(time, q, v, states)),
+            Derivative::Acceleration => {
+                let moment = Moment {
+                    time,
+                    displacement: q,
+                    velocity: v,
+                    states,
+                };
+                rows.extend(moment.acceleration(&self.problem));
+            }
         });
         Ok(rows)
     }
@@ -175,34 +186,8 @@ impl<L: Law> History<L> {
         Ok(modal.chunks(row.len()).map(product).collect())
     }
 
-    /// From the equation of motion.
-    fn acceleration(&self, time: f64, q: &[f64], v: &[f64], states: &[State]) -> Vec<f64> {
-        let mut forces = vec![0.0; q.len()];
-        self.problem.forcing.at(time, &mut forces);
-        for (law, state) in self.problem.laws.iter().zip(states) {
-            let force = law.force(*state, &project(law, q), &project(law, v));
-            for (row, f) in law.rows().iter().zip(force) {
-                for (total, r) in forces.iter_mut().zip(row) {
-                    *total += r * f;
-                }
-            }
-        }
-        let system = &self.problem.system;
-        let inner = (system.omega2().iter().zip(q)).zip(system.damping().iter().zip(v));
-        for (force, ((w2, q), (c, v))) in forces.iter_mut().zip(inner) {
-            *force -= w2 * q + c * v;
-        }
-        for (matrix, motion) in [(system.coupling(), v), (system.circulatory(), q)] {
-            if let Some(matrix) = matrix {
-                for (mode, force) in forces.iter_mut().enumerate() {
-                    *force -= matrix.product(mode, motion);
-                }
-            }
-        }
-        forces
-    }
-
-    /// Distance, its rate and the first component of force of one law at each time.
+    /// Distance, its rate and the first component of force of one law at each time; the force of
+    /// a stop that is rested on is its reaction.
     ///
     /// # Errors
     /// When a time lies outside `[0, duration]`.
@@ -210,12 +195,20 @@ impl<L: Law> History<L> {
         self.check_times(times)?;
         let which = &self.problem.laws[law];
         let mut columns = [const { Vec::new() }; 3];
-        self.visit(times, |_, q, v, states| {
+        self.visit(times, |time, q, v, states| {
             let (position, rate) = (project(which, q), project(which, v));
             let (distance, speed) = which.distance(&position, &rate);
             columns[0].push(distance);
             columns[1].push(speed);
-            columns[2].push(which.force(states[law], &position, &rate)[0]);
+            let moment = Moment {
+                time,
+                displacement: q,
+                velocity: v,
+                states,
+            };
+            let force = (moment.reaction(&self.problem, law))
+                .unwrap_or_else(|| which.force(states[law], &position, &rate)[0]);
+            columns[2].push(force);
         });
         Ok(columns)
     }

@@ -6,6 +6,7 @@
 //! keeps the energy ledger. Nothing here knows nodes, units or files.
 
 pub mod components;
+mod dynamics;
 pub mod energy;
 pub mod error;
 pub mod forcing;
@@ -17,5 +18,6 @@ pub mod modes;
 pub mod number;
 pub mod obstacle;
 pub mod problem;
+mod rigid;
 pub mod sparse;
 pub mod system;

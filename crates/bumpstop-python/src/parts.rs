@@ -142,12 +142,27 @@ impl Spring {
     }
 }
 
+/// A rigid obstacle at distance `d = gap + row . q`.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct RigidStop(pub law::RigidStop);
+
+#[pymethods]
+impl RigidStop {
+    #[new]
+    fn new(row: PyReadonlyArray1<f64>, gap: f64, restitution: f64) -> PyResult<Self> {
+        law::RigidStop::new(values(&row), gap, restitution)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
 /// A law of any kind, as Python hands it over.
 #[derive(FromPyObject)]
 pub enum LawPart<'py> {
     Stop(PyRef<'py, Stop>),
     FrictionStop(PyRef<'py, FrictionStop>),
     Spring(PyRef<'py, Spring>),
+    RigidStop(PyRef<'py, RigidStop>),
 }
 
 impl LawPart<'_> {
@@ -157,6 +172,7 @@ impl LawPart<'_> {
             Self::Stop(law) => law.0.clone().into(),
             Self::FrictionStop(law) => law.0.clone().into(),
             Self::Spring(law) => law.0.clone().into(),
+            Self::RigidStop(law) => law.0.clone().into(),
         }
     }
 }

@@ -1,6 +1,9 @@
 //! Any of the laws, so that a problem can have several kinds.
 
-use super::{FrictionStop, Guard, Law, Local, LocalMotion, Piece, Power, Spring, State, Stop};
+use super::{
+    Constraint, FrictionStop, Guard, Law, Local, LocalMotion, Piece, Power, RigidStop, Spring,
+    State, Stop,
+};
 use crate::number::Number;
 use std::borrow::Cow;
 
@@ -13,6 +16,8 @@ pub enum AnyLaw {
     FrictionStop(FrictionStop),
     /// A multilinear elastic spring.
     Spring(Spring),
+    /// An obstacle that does not give way.
+    RigidStop(RigidStop),
 }
 
 impl From<Stop> for AnyLaw {
@@ -33,6 +38,12 @@ impl From<Spring> for AnyLaw {
     }
 }
 
+impl From<RigidStop> for AnyLaw {
+    fn from(stop: RigidStop) -> Self {
+        Self::RigidStop(stop)
+    }
+}
+
 /// Asks the law inside.
 macro_rules! ask {
     ($self:ident, $law:ident => $answer:expr) => {
@@ -40,6 +51,7 @@ macro_rules! ask {
             Self::Stop($law) => $answer,
             Self::FrictionStop($law) => $answer,
             Self::Spring($law) => $answer,
+            Self::RigidStop($law) => $answer,
         }
     };
 }
@@ -105,6 +117,16 @@ impl Law for AnyLaw {
 
     fn piece(&self, state: State) -> Option<Piece> {
         ask!(self, law => law.piece(state))
+    }
+
+    #[inline(always)]
+    fn restitution(&self) -> Option<f64> {
+        ask!(self, law => law.restitution())
+    }
+
+    #[inline(always)]
+    fn constraint(&self, state: State) -> Option<Constraint> {
+        ask!(self, law => law.constraint(state))
     }
 
     fn guard_count(&self, state: State) -> usize {

@@ -9,6 +9,7 @@
 mod affine;
 mod any;
 mod friction_stop;
+mod rigid_stop;
 mod spring;
 mod state;
 mod stop;
@@ -16,6 +17,7 @@ mod stop;
 pub use affine::{Affine, Power};
 pub use any::AnyLaw;
 pub use friction_stop::{Friction, FrictionStop};
+pub use rigid_stop::RigidStop;
 pub use spring::Spring;
 pub use state::{LocalMotion, State};
 pub use stop::Stop;
@@ -87,6 +89,15 @@ impl Piece {
     }
 }
 
+/// A local coordinate that a state holds where it is, by whatever reaction that takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constraint {
+    /// Which of the law's coordinates.
+    pub coordinate: usize,
+    /// Where it is held, in m.
+    pub position: f64,
+}
+
 /// A function of the local motion that is positive while a state lasts.
 ///
 /// Affine guards are all that piecewise-linear laws need; their derivatives and bounds follow
@@ -121,6 +132,17 @@ pub trait Law: Clone + Send + Sync {
 
     /// The state's matrices where it is linear.
     fn piece(&self, state: State) -> Option<Piece>;
+
+    /// Restitution of a law at whose zero distance the velocities jump. Such a law has the states
+    /// and the guard of [`RigidStop`]; `None` for laws that make forces.
+    fn restitution(&self) -> Option<f64> {
+        None
+    }
+
+    /// What a state holds where it is; it lasts until the reaction reaches zero.
+    fn constraint(&self, _state: State) -> Option<Constraint> {
+        None
+    }
 
     /// How many guards a state has.
     fn guard_count(&self, state: State) -> usize;

@@ -240,6 +240,14 @@ pub(crate) fn check_uncoupled(method: &'static str, system: &ModalSystem) -> Res
     Ok(())
 }
 
+/// Refuses laws at which velocities jump: the schemes go by forces.
+pub(crate) fn check_forces<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
+    if laws.iter().any(|law| law.restitution().is_some()) {
+        return Err(Error::RigidStops { method });
+    }
+    Ok(())
+}
+
 /// Refuses a step above the limit, unless it was asked for by name.
 pub(crate) fn check_step(method: &'static str, step: Step, limit: f64) -> Result<()> {
     if step.dt > limit && !step.beyond_stability_limit {

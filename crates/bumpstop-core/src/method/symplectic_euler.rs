@@ -7,8 +7,9 @@
 
 use super::Observer;
 use super::fixed_step::{
-    ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_step,
-    check_uncoupled, coupling, first_state, highest_frequency, laws_damping, modal, pushed,
+    ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_forces,
+    check_step, check_uncoupled, coupling, first_state, highest_frequency, laws_damping, modal,
+    pushed,
 };
 use crate::error::Result;
 use crate::history::History;
@@ -40,6 +41,7 @@ pub fn simulate<L: Law>(
 ) -> Result<History<L>> {
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Backward)?;
     check_uncoupled(NAME, &problem.system)?;
+    check_forces(NAME, &problem.laws)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = SymplecticEuler {
         problem,

@@ -48,6 +48,10 @@ pub(crate) enum Start {
     /// Zero there: it has just switched, and departs. With slope and curvature where they are
     /// known better than from the signal.
     Zero(Option<[f64; 2]>),
+    /// Zero there with its first two derivatives: its third one decides.
+    Tangent,
+    /// On the wrong side of zero, for velocities have jumped: its law switches at once.
+    Below,
 }
 
 /// The zero that was found.
@@ -105,7 +109,7 @@ impl Path<'_> {
     /// Whether a guard leaves zero at this time.
     #[inline(always)]
     fn departs(&self, watched: usize, time: f64) -> bool {
-        time == self.from && matches!(self.starts[watched], Start::Zero(_))
+        time == self.from && !matches!(self.starts[watched], Start::Positive)
     }
 }
 
@@ -285,7 +289,12 @@ impl Walk {
     ) -> Sight {
         let signal = &path.signals[watched];
         if path.departs(watched, time) {
-            return self.depart::<I>(path, watched, time, width);
+            return match path.starts[watched] {
+                Start::Below => Sight::AtOnce,
+                Start::Tangent => self.depart_tangent::<I>(path, signal, time, width),
+                Start::Zero(known) => self.depart::<I>(path, signal, known, time, width),
+                Start::Positive => Sight::Unclear,
+            };
         }
         let radius = 0.5 * width;
         let at = Instant {
@@ -306,16 +315,16 @@ impl Walk {
         }
     }
 
-    /// The first cell of a guard that starts at zero.
+    /// The first cell of a guard that starts at zero, with slope and curvature where known.
     #[inline(always)]
     fn depart<I: Instructions>(
         &mut self,
         path: &Path<'_>,
-        watched: usize,
+        signal: &Signal,
+        known: Option<[f64; 2]>,
         time: f64,
         width: f64,
     ) -> Sight {
-        let signal = &path.signals[watched];
         let at = Instant {
             time,
             exponentials: &self.left,
@@ -325,10 +334,6 @@ impl Walk {
             signal.values_at_start(path.phases, path.phase)
         } else {
             signal.values::<I>(path.phases, path.phase, &at)
-        };
-        let known = match path.starts[watched] {
-            Start::Zero(known) => known,
-            Start::Positive => None,
         };
         let [slope, curvature] = known.unwrap_or_else(|| {
             let noise = signal.rate_rounding(path.phases, path.phase);
@@ -344,6 +349,21 @@ impl Walk {
         } else {
             Sight::Unclear
         }
+    }
+
+    /// The first cell of a guard that starts at zero with its first two derivatives: it stays
+    /// positive where its second derivative does.
+    #[cold]
+    fn depart_tangent<I: Instructions>(
+        &mut self,
+        path: &Path<'_>,
+        signal: &Signal,
+        time: f64,
+        width: f64,
+    ) -> Sight {
+        let rate = signal.derivative(path.phases, path.phase);
+        let second = rate.derivative(path.phases, path.phase);
+        self.depart::<I>(path, &second, None, time, width)
     }
 
     /// Whether a guard is negative at the right end of the cell.

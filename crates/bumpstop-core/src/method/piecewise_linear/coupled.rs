@@ -4,6 +4,7 @@ use super::secular::Coupling;
 use crate::law::{COORDINATES, Law, Local, Piece, State};
 use crate::number::Complex;
 use crate::problem::Problem;
+use crate::rigid::Directions;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
@@ -14,7 +15,7 @@ pub(crate) struct Coupled {
     pub force: Mat<f64>,
 }
 
-/// The modes that laws in the given states push or feel, and those that matrices couple.
+/// The modes that laws in the given states push, feel or hold, and those that matrices couple.
 pub(crate) fn coupled_modes<L: Law>(problem: &Problem<L>, states: &[State]) -> Vec<usize> {
     let mut involved: Vec<bool> = (0..problem.system.modes())
         .map(|mode| problem.system.couples(mode))
@@ -26,6 +27,11 @@ pub(crate) fn coupled_modes<L: Law>(problem: &Problem<L>, states: &[State]) -> V
                     *involved |= *factor != 0.0;
                 }
             }
+        }
+    }
+    for row in Directions::held(problem, states).rows {
+        for (involved, factor) in involved.iter_mut().zip(row) {
+            *involved |= *factor != 0.0;
         }
     }
     (0..involved.len()).filter(|&mode| involved[mode]).collect()

@@ -3,13 +3,14 @@
 
 use super::cluster::{Cluster, complex};
 use super::coupled::{Coupled, coupled_modes};
+use super::held::Left;
 use super::principal::Principal;
 use super::rows::set_entry;
 use super::secular::Coupling;
 use super::spectrum::{Member, Spectrum};
 use super::splitting::{Part, Split, split};
 use crate::error::{Error, Result};
-use crate::law::{Law, State};
+use crate::law::{Law, Piece, State};
 use crate::number::{Complex, LANES};
 use crate::problem::Problem;
 use faer::linalg::solvers::Solve;
@@ -23,6 +24,9 @@ pub(crate) fn couple<L: Law>(
 ) -> Result<()> {
     let modes = coupled_modes(problem, states);
     let coupled = Coupled::of_modes(problem, states, &modes);
+    if let Some(left) = Left::of(problem, states, &modes) {
+        return couple_left(spectrum, problem, states, left, &coupled);
+    }
     spectrum.members = (modes.iter().enumerate())
         .map(|(group, &mode)| Member {
             mode,
@@ -35,6 +39,44 @@ pub(crate) fn couple<L: Law>(
     let damping = problem.system.damping();
     spectrum.group_damping = modes.iter().map(|&mode| damping[mode]).collect();
     coupled.solve_into(spectrum, problem.duration)
+}
+
+/// Couples the motions that laws leave to the modes whose local coordinates they hold.
+fn couple_left<L: Law>(
+    spectrum: &mut Spectrum,
+    problem: &Problem<L>,
+    states: &[State],
+    left: Left,
+    coupled: &Coupled,
+) -> Result<()> {
+    let reduced = left.reduce(coupled);
+    spectrum.members = left.members();
+    spectrum.held = Some(Box::new(left.held));
+    let count = reduced.force.nrows();
+    spectrum.combinations = count;
+    let damps = |(law, state): (&L, &State)| {
+        let piece = law.piece(*state).unwrap_or(Piece::FREE);
+        piece.damping != Piece::FREE.damping
+    };
+    let is_alone = count == 1 && !problem.laws.iter().zip(states).any(damps);
+    if is_alone {
+        let (k, c) = (reduced.stiffness[(0, 0)], reduced.damping[(0, 0)]);
+        spectrum.add_combination(problem, k, c, reduced.force[(0, 0)]);
+    } else if count > 0 {
+        spectrum.groups = count;
+        reduced.solve_into(spectrum, problem.duration)?;
+    }
+    Ok(())
+}
+
+/// The equations of the coupled groups of a spectrum.
+pub(crate) fn equations<L: Law>(problem: &Problem<L>, states: &[State]) -> Coupled {
+    let modes = coupled_modes(problem, states);
+    let coupled = Coupled::of_modes(problem, states, &modes);
+    match Left::of(problem, states, &modes) {
+        Some(left) => left.reduce(&coupled),
+        None => coupled,
+    }
 }
 
 /// Spectrum of one law whose modes are too heavily damped for the secular path, or have no

@@ -253,7 +253,7 @@ fn modal_form<I: Instructions, L: Law>(
     if spectrum.groups == 0 {
         return None;
     }
-    if problem.system.coupling().is_some() {
+    if problem.system.coupling().is_some() || spectrum.held.is_some() {
         let powers = Powers::in_cell(powers, problem);
         return Some(form_of_dampers::<I>(powers, spectrum));
     }

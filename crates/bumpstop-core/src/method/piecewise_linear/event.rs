@@ -2,6 +2,7 @@
 //! one reaches zero.
 
 use super::advance::{Crossing, Start};
+use super::held::Held;
 use super::instant::{self, Moment};
 use super::phase::{Phase, Phases};
 use super::rows::ComplexBlock;
@@ -10,6 +11,7 @@ use crate::history::Event;
 use crate::law::{Affine, Guard, Law, LocalMotion};
 use crate::number::{Instructions, Plain};
 use crate::problem::Problem;
+use crate::rigid::{Contacts, TOUCHING};
 
 /// The slope of a guard that starts at zero is asked of the equations of motion where the
 /// spectrum's is below this many times its rounding: the errors of the spectrum itself, which on
@@ -27,7 +29,7 @@ pub(crate) struct Watch {
 
 impl Watch {
     /// Sets the signals for a phase that has just begun; `fired` is the guard that ended the
-    /// phase before.
+    /// phase before, `contacts` are the rigid stops.
     #[inline(always)]
     pub(crate) fn set<I: Instructions, L: Law>(
         &mut self,
@@ -36,6 +38,7 @@ impl Watch {
         phase: Phase,
         fired: Option<(usize, Guard)>,
         [q, v]: [&[f64]; 2],
+        contacts: &Contacts,
     ) {
         let states = phases.states(phase);
         let moment = Moment {
@@ -51,12 +54,7 @@ impl Watch {
         for (index, law) in problem.laws.iter().enumerate() {
             for number in 0..law.guard_count(states[index]) {
                 let guard = law.guard(states[index], number);
-                let at = self.guards.len();
-                self.guards.push((index, number));
-                if self.signals.len() == at {
-                    self.signals.push(Signal::default());
-                }
-                let signal = &mut self.signals[at];
+                let signal = next_signal(&mut self.signals, self.guards.len());
                 let function = &guard.function;
                 signal.set::<I>(phases, phase, &views[first_view..], function, remaining);
                 let before = fired
@@ -70,21 +68,110 @@ impl Watch {
                 let [value, slope, _] = signal.values_at_start(phases, phase);
                 let zero = same || value.abs() <= signal.rounding(0.0) || value < 0.0;
                 let noise = signal.rate_rounding(phases, phase)[0];
-                self.starts.push(if !zero {
+                let is_held = phases.spectra[phase.spectrum].held.is_some();
+                let start = if !zero {
                     Start::Positive
-                } else if flat || slope.abs() > DOUBTFUL * noise {
+                } else if flat || is_held || slope.abs() > DOUBTFUL * noise {
                     Start::Zero(None)
                 } else {
                     Start::Zero(instant::rates(problem, states, index, function, moment))
-                });
+                };
+                let start = if contacts.is_empty() {
+                    Some(start)
+                } else {
+                    contacts.start_of(index, function, signal, phases, phase, start)
+                };
+                if let Some(start) = start {
+                    self.guards.push((index, number));
+                    self.starts.push(start);
+                }
             }
             first_view += law.rows().len();
+        }
+        if let Some(held) = &phases.spectra[phase.spectrum].held {
+            self.watch_reactions::<I>(held, phases, phase, remaining);
+        }
+    }
+
+    /// Reactions must push.
+    fn watch_reactions<I: Instructions>(
+        &mut self,
+        held: &Held,
+        phases: &Phases,
+        phase: Phase,
+        remaining: f64,
+    ) {
+        for (law, reaction) in &held.reactions {
+            let signal = next_signal(&mut self.signals, self.guards.len());
+            reaction.set::<I>(signal, phases, phase, remaining);
+            let [value, ..] = signal.values_at_start(phases, phase);
+            let rounding = signal.rounding(0.0);
+            let start = if value > rounding {
+                Start::Positive
+            } else if value < -rounding {
+                Start::Below
+            } else {
+                Start::Zero(None)
+            };
+            self.guards.push((*law, REACTION));
+            self.starts.push(start);
         }
     }
 
     /// The signals in use.
     pub(crate) fn active(&self) -> &[Signal] {
         &self.signals[..self.guards.len()]
+    }
+}
+
+/// The number that the guard of a reaction has instead of a place in its law's list.
+pub(crate) const REACTION: usize = usize::MAX;
+
+/// Room for one more signal.
+#[inline(always)]
+fn next_signal(signals: &mut Vec<Signal>, at: usize) -> &mut Signal {
+    if signals.len() == at {
+        signals.push(Signal::default());
+    }
+    &mut signals[at]
+}
+
+impl Contacts {
+    /// How a guard starts where there are rigid stops: those in touch are at zero. `None` for the
+    /// distance of a stop that stays at zero because others hold it there.
+    fn start_of(
+        &self,
+        law: usize,
+        function: &Affine,
+        signal: &Signal,
+        phases: &Phases,
+        phase: Phase,
+        start: Start,
+    ) -> Option<Start> {
+        let departs = self
+            .departures
+            .iter()
+            .find(|departure| departure.law == law);
+        let [value, ..] = signal.values_at_start(phases, phase);
+        match departs {
+            Some(_) if signal.stays(TOUCHING * self.size(law)) => None,
+            Some(departure) if departure.is_tangent => Some(Start::Tangent),
+            Some(_) => Some(Start::Zero(None)),
+            None => {
+                let jumps = self.jumped && function.velocity != Affine::ZERO.velocity;
+                let is_below = jumps && value < -signal.rounding(0.0);
+                Some(if is_below { Start::Below } else { start })
+            }
+        }
+    }
+
+    /// Takes note of how far the distances of open stops go in a phase up to time t.
+    pub(crate) fn see_phase<L: Law>(&mut self, problem: &Problem<L>, watch: &Watch, t: f64) {
+        for ((law, number), signal) in watch.guards.iter().zip(&watch.signals) {
+            if *number != REACTION && problem.laws[*law].restitution().is_some() {
+                self.see(*law, signal.size(t));
+            }
+        }
     }
 }
 

@@ -21,7 +21,8 @@ pub(crate) enum Acts {
     Nothing,
     /// One spring and damper.
     One(Acting),
-    /// Anything else: several of them, or forces that depend on other coordinates than their own.
+    /// Anything else: several of them, forces that depend on other coordinates than their own, or
+    /// coordinates that are held.
     Several,
 }
 
@@ -31,6 +32,9 @@ impl Acts {
     pub(crate) fn of<L: Law>(problem: &Problem<L>, states: &[State]) -> Self {
         let mut acts = Self::Nothing;
         for (index, (law, state)) in problem.laws.iter().zip(states).enumerate() {
+            if law.constraint(*state).is_some() {
+                return Self::Several;
+            }
             let piece = law.piece(*state).unwrap_or(Piece::FREE);
             for (i, row) in law.rows().iter().enumerate().take(COORDINATES) {
                 if !piece.acts_along(i) || row.iter().all(|r| *r == 0.0) {

@@ -15,6 +15,7 @@ mod dissipation;
 mod enclosure;
 mod event;
 mod grouping;
+mod held;
 mod impedance;
 mod instant;
 mod jet;
@@ -46,7 +47,8 @@ use crate::history::{Event, History};
 use crate::law::{Guard, Law, State};
 use crate::number::{Instructions, Plain, Vectorised, dispatch};
 use crate::problem::Problem;
-use advance::{Certificate, Path, Walk};
+use crate::rigid::{Cause, Contacts, Place};
+use advance::{Certificate, Crossing, Path, Walk};
 use event::Watch;
 use phase::{Phases, Workspace};
 use spectrum::{Secular, Spectrum, Workbench};
@@ -73,7 +75,8 @@ pub fn simulate<L: Law>(problem: &Arc<Problem<L>>, observer: Observer<'_>) -> Re
         observer,
     })?;
     SCRATCH.set(Some(run.scratch));
-    let record = PhaseRecord::new(run.phases, problem.duration, run.certificate);
+    let blows = run.contacts.blows;
+    let record = PhaseRecord::new(run.phases, problem.duration, run.certificate, blows);
     Ok(History::of_phases(problem, NAME, record, run.events))
 }
 
@@ -113,6 +116,7 @@ struct Run<'a, L> {
     phases: Phases,
     events: Vec<Event>,
     certificate: Certificate,
+    contacts: Contacts,
     scratch: Box<Scratch>,
 }
 
@@ -123,6 +127,7 @@ impl<'a, L: Law> Run<'a, L> {
             phases: Phases::empty(),
             events: Vec::new(),
             certificate: Certificate::default(),
+            contacts: Contacts::new(problem),
             scratch: SCRATCH.take().unwrap_or_default(),
         }
     }
@@ -133,6 +138,10 @@ impl<'a, L: Law> Run<'a, L> {
         let mut states = instant::initial_states(problem);
         let (mut q, mut v) = (problem.displacement.clone(), problem.velocity.clone());
         let mut time = 0.0;
+        if !self.contacts.is_empty() {
+            self.contacts.check_start(problem)?;
+            self.meet(Cause::Other, time, &q, &mut v, &mut states)?;
+        }
         self.scratch.walk.start(problem.duration);
         let mut fired: Option<(usize, Guard)> = None;
         let mut at_once = 0;
@@ -143,9 +152,14 @@ impl<'a, L: Law> Run<'a, L> {
             let knot = self.meet_loads(time);
             self.begin::<I>(time, &states, &q, &v)?;
             let phase = self.phases.list[self.phases.list.len() - 1];
-            self.scratch
-                .watch
-                .set::<I, L>(problem, &self.phases, phase, fired, [&q, &v]);
+            self.scratch.watch.set::<I, L>(
+                problem,
+                &self.phases,
+                phase,
+                fired,
+                [&q, &v],
+                &self.contacts,
+            );
             let path = Path {
                 phases: &self.phases,
                 phase,
@@ -164,6 +178,10 @@ impl<'a, L: Law> Run<'a, L> {
                 self.phases
                     .motion::<I>(phase, limit, &mut self.scratch.work, &mut q, &mut v);
                 (time, fired, at_once) = (knot, None, 0);
+                if !self.contacts.is_empty() {
+                    (self.contacts).see_phase(problem, &self.scratch.watch, limit);
+                    self.meet(Cause::Other, time, &q, &mut v, &mut states)?;
+                }
                 continue;
             };
             at_once = if time + crossing.time > time {
@@ -177,12 +195,51 @@ impl<'a, L: Law> Run<'a, L> {
             self.phases
                 .motion::<I>(phase, crossing.time, &mut self.scratch.work, &mut q, &mut v);
             time += crossing.time;
-            let watch = &self.scratch.watch;
-            let (event, guard) = event::event_of(problem, &self.phases, phase, watch, crossing);
-            states[event.law] = event.after;
-            fired = Some((event.law, guard));
-            self.events.push(event);
+            fired = None;
+            let cause = self.cause(crossing);
+            if cause == Cause::Other {
+                let watch = &self.scratch.watch;
+                let (event, guard) = event::event_of(problem, &self.phases, phase, watch, crossing);
+                states[event.law] = event.after;
+                fired = Some((event.law, guard));
+                self.events.push(event);
+            }
+            if !self.contacts.is_empty() {
+                (self.contacts).see_phase(problem, &self.scratch.watch, crossing.time);
+                self.meet(cause, time, &q, &mut v, &mut states)?;
+            }
         }
+    }
+
+    /// Whether a rigid stop makes a crossing, and how.
+    #[inline(always)]
+    fn cause(&self, crossing: Crossing) -> Cause {
+        let (law, guard) = self.scratch.watch.guards[crossing.watched];
+        if guard == event::REACTION {
+            Cause::Leave(law)
+        } else if !self.contacts.is_empty() && self.problem.laws[law].restitution().is_some() {
+            Cause::Touch(law)
+        } else {
+            Cause::Other
+        }
+    }
+
+    /// Lets rigid stops in touch do their work at the start of a phase.
+    #[cold]
+    fn meet(
+        &mut self,
+        cause: Cause,
+        time: f64,
+        q: &[f64],
+        v: &mut [f64],
+        states: &mut [State],
+    ) -> Result<()> {
+        let place = Place {
+            cause,
+            time,
+            phase: self.phases.list.len(),
+        };
+        (self.contacts).meet(self.problem, place, q, v, states, &mut self.events)
     }
 
     /// Turns to the loads from a time on; returns the next instant at which one of them has a

@@ -313,6 +313,11 @@ impl Phases {
             q[member.mode] += member.weight * work.position[member.group];
             v[member.mode] += member.weight * work.velocity[member.group];
         }
+        if let Some(held) = &spectrum.held {
+            for (&mode, offset) in held.modes.iter().zip(&held.offsets) {
+                q[mode] += offset;
+            }
+        }
         if let Some(response) = &spectrum.response {
             let units = |harmonic: usize| self.unit(phase, response, harmonic);
             response.add_motion(1.0, self.coefficients(phase), units, t, q, v);

@@ -199,6 +199,17 @@ impl Signal {
         exponentials + self.rounding_of_resonances(t)
     }
 
+    /// Sum of the sizes of its terms up to time t: how far it may go.
+    pub(crate) fn size(&self, t: f64) -> f64 {
+        self.totals[0] + self.polynomial.size(t)
+    }
+
+    /// Whether it keeps within such a distance of zero, being nothing but a constant and rounding.
+    pub(crate) fn stays(&self, distance: f64) -> bool {
+        let is_still = self.specials.is_empty() && self.resonances.is_empty();
+        is_still && self.size(self.remaining) <= distance
+    }
+
     /// The signal's rate.
     pub(crate) fn derivative(&self, phases: &Phases, phase: Phase) -> Self {
         let spectrum = &phases.spectra[phase.spectrum];

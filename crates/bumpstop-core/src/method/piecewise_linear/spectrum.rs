@@ -6,9 +6,9 @@
 //! only are split into the combination that it pushes and the rest that it does not see.
 
 use super::cluster::Cluster;
-use super::coupled::Coupled;
 use super::dense;
 use super::grouping::{Acting, Acts, group_alike, group_forces, static_groups};
+use super::held::{Held, Reaction};
 use super::impedance::Impedance;
 use super::response::{Response, is_slow};
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
@@ -86,6 +86,8 @@ pub(crate) struct Spectrum {
     pub is_secular: bool,
     /// Where the exponents of harmonic loads start, behind all others.
     pub forced_at: usize,
+    /// What laws hold, where they do.
+    pub held: Option<Box<Held>>,
     /// How it follows loads that change in time, where there are such.
     pub response: Option<Box<Response>>,
 }
@@ -148,6 +150,12 @@ impl Spectrum {
         }
         views.truncate(count);
         spectrum.views = views;
+        if spectrum.held.is_some() {
+            let reactions = Reaction::all::<I, L>(problem, &spectrum, &mut bench.combined);
+            if let Some(held) = &mut spectrum.held {
+                held.reactions = reactions;
+            }
+        }
         Ok(spectrum)
     }
 
@@ -176,6 +184,7 @@ impl Spectrum {
         self.singles.clear();
         (self.groups, self.coupled_width, self.combinations) = (0, 0, 0);
         self.is_secular = false;
+        self.held = None;
         self.response = None;
         self
     }
@@ -189,8 +198,7 @@ impl Spectrum {
         } else if by_one && !problem.system.is_coupled() {
             Some(Impedance::OneLaw(&bench.coupling))
         } else {
-            let modes: Vec<usize> = self.members.iter().map(|m| m.mode).collect();
-            let coupled = Coupled::of_modes(problem, &self.states, &modes);
+            let coupled = dense::equations(problem, &self.states);
             Some(Impedance::Dense(Box::new(coupled)))
         };
         let forcing = &problem.forcing;
@@ -364,6 +372,24 @@ impl Spectrum {
         });
     }
 
+    /// A combination that moves by itself though laws hold others: with damping of the structure
+    /// alone.
+    pub(super) fn add_combination<L: Law>(
+        &mut self,
+        problem: &Problem<L>,
+        stiffness: f64,
+        damping: f64,
+        force: f64,
+    ) {
+        self.singles.push(Single {
+            subject: Subject::Combination,
+            motion: single_motion(problem, stiffness, damping, force),
+            at: 0,
+            modal_share: 1.0,
+            law: None,
+        });
+    }
+
     /// Adds the modes, or parts of modes, that no acting law sees.
     #[inline(always)]
     fn add_singles<L: Law>(&mut self, problem: &Problem<L>, bench: &mut Workbench) {
@@ -386,6 +412,9 @@ impl Spectrum {
             // The part of the mode's force that its group takes.
             pushed[member.mode] = member.weight * totals[member.group];
             whole += usize::from(member.weight.abs() == 1.0);
+        }
+        if let Some(held) = &self.held {
+            held.modes.iter().for_each(|&mode| weights[mode] = 1.0);
         }
         self.singles.reserve_exact(omega2.len() - whole);
         for mode in 0..omega2.len() {

@@ -15,7 +15,7 @@ pub(crate) struct View {
     /// Weight of each column of the clusters, one cluster behind the other; these count for
     /// nothing among the exponents.
     pub clusters: Vec<Complex<f64>>,
-    /// Position at rest of the coupled groups.
+    /// Position at rest of the coupled groups, and where coordinates are held.
     pub rest: f64,
     /// Weight of each single motion.
     pub singles: Vec<f64>,
@@ -60,6 +60,9 @@ impl View {
         }
         for (position, weight) in spectrum.at_rest.iter().zip(combined.iter()) {
             self.rest += position * weight;
+        }
+        if let Some(held) = &spectrum.held {
+            self.rest += held.along(row);
         }
         self.singles.clear();
         for single in &spectrum.singles {

@@ -36,11 +36,13 @@ impl PhaseRecord {
         let mut work = Workspace::default();
         for (number, phase) in phases.list.iter().enumerate() {
             if number == 0 {
-                let motion = Motion {
+                let mut motion = Motion {
                     q: problem.displacement.clone(),
                     v: problem.velocity.clone(),
                 };
-                let ledger = state_ledger(problem, phases.states(*phase), &motion);
+                self.strike::<I, L>(problem, 0, &mut motion, &mut work);
+                let mut ledger = state_ledger(problem, phases.states(*phase), &motion);
+                self.add_blows(0, &mut ledger.law_dissipated);
                 accounts.ledgers.push(ledger);
                 accounts.changing.push(0.0);
             }
@@ -48,9 +50,11 @@ impl PhaseRecord {
             let length = phase.length;
             let meter = &accounts.meters[phase.spectrum];
             let mut works = meter.until::<I, L>(problem, phases, *phase, length, &mut work);
-            let motion = self.motion_in::<I, L>(problem, *phase, length, &mut work);
+            let mut motion = self.motion_in::<I, L>(problem, *phase, length, &mut work);
             if let Some(next) = next {
                 add_switch_losses(problem, phases, *phase, *next, &motion, &mut works);
+                self.strike::<I, L>(problem, number + 1, &mut motion, &mut work);
+                self.add_blows(number + 1, &mut works.laws);
             }
             let after = next.unwrap_or(phase);
             let mut ledger = state_ledger(problem, phases.states(*after), &motion);
@@ -61,6 +65,27 @@ impl PhaseRecord {
             accounts.ledgers.push(ledger);
         }
         accounts
+    }
+
+    /// The motion with which a phase begins where impulses begin it.
+    #[inline(always)]
+    fn strike<I: Instructions, L: Law>(
+        &self,
+        problem: &Problem<L>,
+        phase: usize,
+        motion: &mut Motion,
+        work: &mut Workspace,
+    ) {
+        if !self.blows_at(phase).is_empty() {
+            *motion = self.motion_in::<I, L>(problem, self.phases.list[phase], 0.0, work);
+        }
+    }
+
+    /// Adds what the impulses at the start of a phase take.
+    fn add_blows(&self, phase: usize, to: &mut [f64]) {
+        for blow in self.blows_at(phase) {
+            to[blow.law] += blow.loss();
+        }
     }
 }
 

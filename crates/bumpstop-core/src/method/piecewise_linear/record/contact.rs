@@ -1,14 +1,17 @@
 //! Reading the impacts of one law along the phases.
 
 use super::PhaseRecord;
+use crate::dynamics::Moment;
 use crate::impacts::Impact;
 use crate::law::{Affine, Law, project};
 use crate::method::piecewise_linear::advance::{Certificate, Path, Start, Walk};
+use crate::method::piecewise_linear::held::Reaction;
 use crate::method::piecewise_linear::phase::{Phase, Workspace};
 use crate::method::piecewise_linear::product::Products;
 use crate::method::piecewise_linear::signal::Signal;
 use crate::number::Plain;
 use crate::problem::Problem;
+use crate::rigid::Blow;
 
 /// Reads the contact of one law along phases, once and at leisure: in plain arithmetic, which
 /// gives the same bits and compiles once.
@@ -59,7 +62,27 @@ impl<'a, L: Law> ContactReader<'a, L> {
         impacts.extend(current);
         // A touch of no duration is a switch back and forth at one instant, not an impact.
         impacts.retain(|i| i.end != i.start);
+        if which.restitution().is_some() {
+            self.add_blows(&mut impacts);
+        }
         impacts
+    }
+
+    /// Adds the impacts of a rigid stop, which have no duration. Where the structure rests it
+    /// neither closes nor opens.
+    fn add_blows(&self, impacts: &mut Vec<Impact>) {
+        for rest in impacts.iter_mut() {
+            rest.closing_speed = 0.0;
+            if !rest.end.is_nan() {
+                rest.opening_speed = 0.0;
+            }
+        }
+        let own = |blow: &&Blow| blow.law == self.law && blow.is_impact;
+        let rests = std::mem::take(impacts);
+        impacts.extend(self.record.blows.iter().filter(own).map(Blow::impact));
+        // A rest that follows an impact at once stands behind it.
+        impacts.extend(rests);
+        impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
     }
 
     /// Distance, its rate and the force, `t` after the start of a phase.
@@ -68,12 +91,36 @@ impl<'a, L: Law> ContactReader<'a, L> {
         let law = &self.problem.laws[self.law];
         let (position, velocity) = (project(law, &motion.q), project(law, &motion.v));
         let (distance, rate) = law.distance(&position, &velocity);
-        let state = self.record.phases.states(phase)[self.law];
-        [distance, rate, law.force(state, &position, &velocity)[0]]
+        let states = self.record.phases.states(phase);
+        let moment = Moment {
+            time: phase.start + t,
+            displacement: &motion.q,
+            velocity: &motion.v,
+            states,
+        };
+        let force = (moment.reaction(self.problem, self.law))
+            .unwrap_or_else(|| law.force(states[self.law], &position, &velocity)[0]);
+        [distance, rate, force]
+    }
+
+    /// Adds a phase in which the structure rests on a rigid stop: no work is done.
+    fn add_rest(&mut self, phase: Phase, length: f64, reaction: &Reaction, impact: &mut Impact) {
+        let phases = &self.record.phases;
+        let mut force = Signal::default();
+        let remaining = self.problem.duration - phase.start;
+        reaction.set::<Plain>(&mut force, phases, phase, remaining);
+        impact.impulse += force.integral(phases, phase, length);
+        self.add_peaks(phase, length, &force, impact);
     }
 
     /// Adds a phase of the given length to an impact.
     fn add_phase(&mut self, phase: Phase, length: f64, impact: &mut Impact) {
+        let phases = &self.record.phases;
+        let held = phases.spectra[phase.spectrum].held.as_ref();
+        if let Some(reaction) = held.and_then(|held| held.reaction(self.law)) {
+            self.add_rest(phase, length, reaction, impact);
+            return;
+        }
         let law = &self.problem.laws[self.law];
         let state = self.record.phases.states(phase)[self.law];
         let Some(piece) = law.piece(state).filter(|p| p.acts()) else {

@@ -12,6 +12,7 @@ use crate::impacts::Impact;
 use crate::law::{Law, State};
 use crate::number::{Instructions, Vectorised, dispatch};
 use crate::problem::Problem;
+use crate::rigid::Blow;
 use accounts::{Accounts, Ledgers, Settlement};
 use contact::ContactReader;
 use defect::Defect;
@@ -24,6 +25,8 @@ pub struct PhaseRecord {
     phases: Phases,
     duration: f64,
     certificate: Certificate,
+    /// Impulses of rigid stops, in order of time.
+    blows: Vec<Blow>,
     accounts: OnceLock<Accounts>,
     motion_error: OnceLock<f64>,
 }
@@ -44,11 +47,17 @@ impl Drop for PhaseRecord {
 }
 
 impl PhaseRecord {
-    pub(crate) fn new(phases: Phases, duration: f64, certificate: Certificate) -> Self {
+    pub(crate) fn new(
+        phases: Phases,
+        duration: f64,
+        certificate: Certificate,
+        blows: Vec<Blow>,
+    ) -> Self {
         Self {
             phases,
             duration,
             certificate,
+            blows,
             accounts: OnceLock::new(),
             motion_error: OnceLock::new(),
         }
@@ -121,6 +130,13 @@ impl PhaseRecord {
     /// Largest imbalance at the switches and at the end, relative to the largest energy.
     pub(crate) fn energy_residual<L: Law>(&self, problem: &Problem<L>) -> f64 {
         energy::residual(self.accounts(problem).ledgers.iter())
+    }
+
+    /// The impulses with which a phase begins.
+    fn blows_at(&self, phase: usize) -> &[Blow] {
+        let first = self.blows.partition_point(|blow| blow.phase < phase);
+        let count = self.blows[first..].partition_point(|blow| blow.phase == phase);
+        &self.blows[first..first + count]
     }
 
     fn accounts<L: Law>(&self, problem: &Problem<L>) -> &Accounts {

@@ -133,7 +133,9 @@ impl Response {
                 singles: singles.iter().map(|series| series[number]).collect(),
             };
             let row = parts.modes(spectrum, self.modes);
-            if row.iter().any(|x| *x != 0.0) {
+            // A reaction resists a load even where nothing moves.
+            let is_resisted = order == 0 && spectrum.held.is_some();
+            if is_resisted || row.iter().any(|x| *x != 0.0) {
                 self.links.push(Link {
                     channel,
                     order,

@@ -41,9 +41,17 @@ impl<'a, L: Law> Defect<'a, L> {
         }
     }
 
-    /// The largest bound of any phase at any law, in that law's coordinate.
+    /// The largest bound of any phase at any law, in that law's coordinate. Infinite where impulses
+    /// or reactions act, for which there is no bound yet.
     pub(super) fn largest(&mut self) -> Result<f64> {
         let phases = &self.record.phases;
+        let holds = phases
+            .spectra
+            .iter()
+            .any(|spectrum| spectrum.held.is_some());
+        if holds || !self.record.blows.is_empty() {
+            return Ok(f64::INFINITY);
+        }
         let mut equations: Vec<Option<Equations>> = Vec::new();
         equations.resize_with(phases.spectra.len(), || None);
         let mut largest = 0.0f64;

@@ -1,0 +1,143 @@
+//! A rigid stop: an obstacle that does not give way, with a coefficient of restitution.
+//!
+//! While it is open it does nothing. At an impact the velocities jump; a structure that rests
+//! against it is held there by a reaction, which is no function of the local motion: both are the
+//! method's work, from [`Law::restitution`] and [`Law::constraint`].
+
+use super::{Affine, Constraint, Guard, Law, Local, LocalMotion, Piece, Power, State};
+use crate::error::{Error, Result, check_finite};
+use crate::number::Number;
+use crate::obstacle::Plane;
+use std::borrow::Cow;
+
+/// A rigid plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidStop {
+    rows: [Vec<f64>; 1],
+    obstacle: Plane,
+    restitution: f64,
+}
+
+impl RigidStop {
+    /// No contact, or the instant of an impact.
+    pub const OPEN: State = State::plain(0);
+    /// The structure stays at the obstacle.
+    pub const RESTING: State = State::plain(1);
+
+    /// A stop whose distance is `gap + row . q` and which gives back `restitution` of the speed.
+    ///
+    /// # Errors
+    /// When a number is not finite or the restitution not from 0 to 1.
+    pub fn new(row: Vec<f64>, gap: f64, restitution: f64) -> Result<Self> {
+        check_finite("the stop's row", &row)?;
+        check_finite("the stop's gap", &[gap])?;
+        if !(0.0..=1.0).contains(&restitution) {
+            return Err(Error::Restitution { value: restitution });
+        }
+        Ok(Self {
+            rows: [row],
+            obstacle: Plane { gap },
+            restitution,
+        })
+    }
+}
+
+impl Law for RigidStop {
+    fn rows(&self) -> &[Vec<f64>] {
+        &self.rows
+    }
+
+    fn state_name(&self, state: State) -> Cow<'static, str> {
+        ["open", "resting"][state.number as usize].into()
+    }
+
+    fn restitution(&self) -> Option<f64> {
+        Some(self.restitution)
+    }
+
+    fn constraint(&self, state: State) -> Option<Constraint> {
+        (state == Self::RESTING).then_some(Constraint {
+            coordinate: 0,
+            position: -self.obstacle.gap,
+        })
+    }
+
+    fn initial_state(&self, _motion: &LocalMotion) -> State {
+        Self::OPEN
+    }
+
+    #[inline(always)]
+    fn sampled_state(
+        &self,
+        _previous: State,
+        _position: &Local<f64>,
+        _velocity: &Local<f64>,
+    ) -> State {
+        Self::OPEN
+    }
+
+    #[inline(always)]
+    fn force<T: Number>(
+        &self,
+        _state: State,
+        _position: &Local<T>,
+        _velocity: &Local<T>,
+    ) -> Local<T> {
+        [T::of(0.0); 3]
+    }
+
+    fn piece(&self, _state: State) -> Option<Piece> {
+        Some(Piece::FREE)
+    }
+
+    fn guard_count(&self, state: State) -> usize {
+        usize::from(state == Self::OPEN)
+    }
+
+    fn guard(&self, _state: State, _index: usize) -> Guard {
+        let mut function = Affine::coordinate(0);
+        function.constant = self.obstacle.gap;
+        Guard {
+            name: "impact",
+            function,
+        }
+    }
+
+    fn next_state(
+        &self,
+        state: State,
+        _guard: usize,
+        _motion: impl FnOnce() -> LocalMotion,
+    ) -> State {
+        state
+    }
+
+    #[inline(always)]
+    fn stored<T: Number>(&self, _state: State, _position: &Local<T>) -> T {
+        T::of(0.0)
+    }
+
+    fn dissipation(&self, _state: State) -> Power {
+        Power::NONE
+    }
+
+    fn switch_loss(&self, _before: State, _after: State, _position: &Local<f64>) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn distance<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> (T, T) {
+        (
+            self.obstacle.distance(position),
+            self.obstacle.rate(velocity),
+        )
+    }
+
+    fn in_contact(&self, state: State) -> bool {
+        state == Self::RESTING
+    }
+
+    fn stiffest(&self) -> Piece {
+        Piece::FREE
+    }
+}
