@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from bumpstop.io.modes import identify_modes, read_modes
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.obstacle import Plane
+    from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
     from bumpstop.loads.base_motion import BaseMotion
@@ -107,6 +108,7 @@ __all__ = [
     "Response",
     "RigidLink",
     "RigidRotation",
+    "RigidStop",
     "Rotation",
     "Section",
     "Spring",
@@ -179,6 +181,7 @@ _HOME = {
     "Rotation": "modal.substructure.rotation",
     "Section": "structure.sections.section",
     "Spring": "structure.spring",
+    "RigidStop": "laws.rigid_stop",
     "SpringLaw": "laws.spring",
     "StaticShapes": "modal.static_shapes",
     "Stop": "laws.stop",

@@ -109,6 +109,11 @@ class Stop:
 
     def __init__(self, row: Array, gap: float, stiffness: float, damping: float) -> None: ...
 
+class RigidStop:
+    """A rigid obstacle at distance ``d = gap + row . q``, with a coefficient of restitution."""
+
+    def __init__(self, row: Array, gap: float, restitution: float) -> None: ...
+
 class FrictionStop:
     """A stop that rubs along the coordinate ``tangent . q``, by a spring that can slide."""
 
@@ -130,7 +135,7 @@ class Spring:
     ) -> None:
         """Take the stiffness of each segment between breaks, and the force at the origin."""
 
-Law = Stop | FrictionStop | Spring
+Law = Stop | RigidStop | FrictionStop | Spring
 
 class History:
     """What a run leaves behind; it can be sampled anywhere in [0, duration]."""

@@ -49,6 +49,11 @@ def canonical_form(problem: Problem) -> CanonicalForm:
         displacement, velocity = np.zeros(modes), np.zeros(modes)
     else:
         displacement, velocity = problem.initial.modal_state(basis)
+    for law in problem.laws:
+        # Few laws have it: asked for so that those are not imported where nobody has them.
+        check = getattr(law, "check_start", None)
+        if check is not None:
+            check(basis, displacement)
     system = _core.System(basis.omega2, *_velocity_terms(basis), basis.circulatory)
     return CanonicalForm(system, laws, _forcing(problem), displacement, velocity)
 

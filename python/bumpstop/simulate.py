@@ -88,6 +88,7 @@ def simulate(
     chosen, reason = _choose(method)
     _check_options(chosen, unknown, dt=dt, beyond_stability_limit=beyond_stability_limit or None)
     _refuse_coupled_modes(chosen, problem)
+    _refuse_rigid_stops(chosen, problem)
     model = _model(problem)
     step = _checked_step(chosen, dt, problem.duration, model, beyond_stability_limit)
     try:
@@ -140,6 +141,19 @@ def _refuse_coupled_modes(method: str, problem: Problem) -> None:
             value=method,
             hint="the exact method does",
         )
+
+
+def _refuse_rigid_stops(method: str, problem: Problem) -> None:
+    """Raise for a scheme that goes by forces where speeds jump."""
+    if method in FIXED_STEP_METHODS:
+        for law in problem.laws:
+            if hasattr(law, "restitution"):
+                raise InputError(
+                    f"does not take rigid stops such as {law.name!r}",
+                    key="method",
+                    value=method,
+                    hint="the exact method does",
+                )
 
 
 def _model(problem: Problem) -> CanonicalForm:

@@ -28,6 +28,7 @@ OPTIONAL = {
     ("variants",),
     ("references",),
     ("supports",),
+    ("stops", "spring", "stiffness"),  # each variant has its own
 }
 """Keys that a case can do without, among those of the file that is spoilt."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
-from math import isnan
+from math import isfinite, isnan
 from pathlib import Path
 from typing import Any
 
@@ -74,10 +74,10 @@ def _how(numbers: dict[str, Any]) -> str:
 
 def _certificate(numbers: dict[str, Any]) -> str:
     depth, error = numbers["missed_penetration"], numbers["motion_error"]
-    return (
-        f"certified: no contact deeper than {depth:.1e} m missed, "
-        f"motion true to {error:.1e} m between switches"
-    )
+    missed = f"certified: no contact deeper than {depth:.1e} m missed"
+    if not isfinite(error):
+        return missed
+    return f"{missed}, motion true to {error:.1e} m between switches"
 
 
 def _many(count: int, thing: str) -> str:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bumpstop.laws.friction import Friction
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["Stop"]
+__all__ = ["Stop", "contact_row"]
 
 OBSTACLES = ("plane",)
 
@@ -128,15 +128,7 @@ class Stop:
         InputError
             If the basis has no shape at a node, or none that changes the distance.
         """
-        row = self.coordinate.row(basis)
-        if not row.any():
-            what = "no mode moves this node along the normal"
-            if self.terms is not None:
-                raise InputError("no mode changes this sum", key="terms", value=self.terms)
-            if self.other is not None:
-                what = "no mode moves these nodes against each other along the normal"
-            raise InputError(what, key="node", value=self.node)
-        return row
+        return contact_row(self.coordinate, basis)
 
     def sliding_row(self, basis: ModalBasis) -> FloatArray | None:
         """Return the motion along the obstacle, (N,); None without friction.
@@ -202,3 +194,16 @@ class Stop:
             if value is not None:
                 hint = "give the coefficient, friction = 0.2"
                 raise InputError("belongs to friction", key=key, value=value, hint=hint)
+
+
+def contact_row(contact: Coordinate, basis: ModalBasis) -> FloatArray:
+    """Return what a distance sees of each mode (N,), refusing one that nothing changes."""
+    row = contact.row(basis)
+    if not row.any():
+        what = "no mode moves this node along the normal"
+        if contact.terms is not None:
+            raise InputError("no mode changes this sum", key="terms", value=contact.terms)
+        if contact.other is not None:
+            what = "no mode moves these nodes against each other along the normal"
+        raise InputError(what, key="node", value=contact.node)
+    return row

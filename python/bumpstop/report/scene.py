@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bumpstop.arguments import FloatArray
-    from bumpstop.laws import Stop
+    from bumpstop.laws import RigidStop, Stop
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
     from bumpstop.report.outline import Outline
@@ -162,16 +162,24 @@ def _away_from(drawing: Outline, view: FloatArray, place: int) -> FloatArray:
     return np.asarray(np.eye(len(view))[0])
 
 
-def _stop(law: Stop, drawing: Outline, view: FloatArray, response: Response) -> dict[str, Any]:
+def _stop(
+    law: Stop | RigidStop, drawing: Outline, view: FloatArray, response: Response
+) -> dict[str, Any]:
     times = response.times
     return {
         "name": law.name,
-        "label": f"{law.name}, {with_unit(law.stiffness, 'N/m')}",
+        "label": f"{law.name}, {_give(law)}",
         "point": drawing.nodes[law.node],
         "normal": view @ np.array(law.normal),
         "gap": law.gap,
         "deepest": max(0.0, -float(response.sample("gap", law.name, times=times).min())),
     }
+
+
+def _give(law: Stop | RigidStop) -> str:
+    """Return how far a stop gives way, in words."""
+    stiffness = getattr(law, "stiffness", None)
+    return "rigid" if stiffness is None else with_unit(stiffness, "N/m")
 
 
 def _frame_times(response: Response) -> FloatArray:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.laws import Friction, SpringLaw, Stop
+from bumpstop.laws import Friction, RigidStop, SpringLaw, Stop
 from bumpstop.loads import (
     BaseMotion,
     Gravity,
@@ -223,6 +223,12 @@ def _law(law: Law) -> str:
         slopes = ", ".join(with_unit(slope, "N/m") for slope in law.stiffness)
         where = f"{_where(law.coordinate)} along {_vector(law.direction)}"
         return f"{law.name}: a spring {where}, {slopes}"
+    if isinstance(law, RigidStop):
+        gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
+        return (
+            f"{law.name}: a rigid {law.obstacle} {_where(law.coordinate)} that pushes along "
+            f"{_vector(law.normal)}, {gap}, restitution {_plain(law.restitution)}"
+        )
     return law.name
 
 

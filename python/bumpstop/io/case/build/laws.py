@@ -11,10 +11,21 @@ from bumpstop.laws import Stop
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
     from bumpstop.io.case.tables.laws import LawTable
-    from bumpstop.laws import SpringLaw
+    from bumpstop.io.case.tables.stops import StopTable
+    from bumpstop.laws import RigidStop, SpringLaw
     from bumpstop.problem import Law
 
 __all__ = ["built_laws"]
+
+ELASTIC = (
+    "stiffness",
+    "damping",
+    "friction",
+    "sliding",
+    "tangential_stiffness",
+    "tangential_damping",
+)
+"""What a stop that gives way can have."""
 
 
 def built_laws(case: CaseFile) -> list[Law]:
@@ -22,11 +33,30 @@ def built_laws(case: CaseFile) -> list[Law]:
     laws: list[Law] = []
     for name, table in case.stops.items():
         with keyed(f"stops.{name}"):
-            laws.append(Stop(name, **_given(table)))
+            laws.append(_stop(name, table))
     for name, law in case.laws.items():
         with keyed(f"laws.{name}"):
             laws.append(_spring(name, law))
     return laws
+
+
+def _stop(name: str, table: StopTable) -> Stop | RigidStop:
+    from bumpstop.errors import InputError
+
+    given = _given(table)
+    if table.restitution is not None:
+        from bumpstop.laws import RigidStop
+
+        for key in ELASTIC:
+            if given.pop(key, None):
+                hint = "leave it out, or restitution"
+                value = getattr(table, key)
+                raise InputError("is of no use to a rigid stop", key=key, value=value, hint=hint)
+        return RigidStop(name, **given)
+    if table.stiffness is None:
+        hint = "a rigid stop has a restitution instead"
+        raise InputError("is missing", key="stiffness", hint=hint)
+    return Stop(name, **given)
 
 
 def _spring(name: str, table: LawTable) -> SpringLaw:

@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from bumpstop.io.case.fields.laws import FrictionCoefficients, Sliding
-from bumpstop.io.case.fields.quantities import DampingConstant, Length, Number3, Stiffness
+from bumpstop.io.case.fields.quantities import DampingConstant, Length, Number3, Ratio, Stiffness
 from bumpstop.io.case.fields.words import Node, OneDof, choice
 from bumpstop.io.case.tables.table import Field, Table
 
@@ -11,7 +11,10 @@ __all__ = ["StopTable"]
 
 
 class StopTable(Table):
-    """A spring and damper that push a node back once it has crossed the gap; they never pull."""
+    """A spring and damper that push a node back once it has crossed the gap; they never pull.
+
+    With ``restitution`` instead of a stiffness the stop is rigid.
+    """
 
     node: Node | None = Field(default=None, description="The node that it stops")
     obstacle: Annotated[str, choice("plane")] = Field(
@@ -31,7 +34,14 @@ class StopTable(Table):
     gap: Length = Field(
         default=0.0, description="Distance from the undeformed structure to the obstacle, in m"
     )
-    stiffness: Stiffness = Field(description="Contact stiffness, in N/m")
+    stiffness: Stiffness | None = Field(
+        default=None, description="Contact stiffness, in N/m; every stop that is not rigid needs it"
+    )
+    restitution: Ratio | None = Field(
+        default=None,
+        description="Part of the speed that a rigid stop gives back, from 0 to 1; such a stop "
+        "has neither stiffness nor damping nor friction",
+    )
     damping: DampingConstant = Field(default=0.0, description="Contact damping, in N s/m")
     friction: FrictionCoefficients | None = Field(
         default=None,

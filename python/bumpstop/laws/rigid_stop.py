@@ -1,0 +1,135 @@
+"""RigidStop: an obstacle that does not give way."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, Vector, finite, name, one_of
+from bumpstop.errors import InputError
+from bumpstop.laws.coordinate import Coordinate, Terms
+from bumpstop.laws.stop import OBSTACLES, contact_row
+
+if TYPE_CHECKING:
+    from bumpstop import _core
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["RigidStop"]
+
+ROUNDING = 1e-14
+"""Part of the terms that a distance is summed of below which it is zero."""
+
+
+@dataclass(frozen=True)
+class RigidStop:
+    """A stop without give: the structure rebounds with a coefficient of restitution.
+
+    The distance ``d = gap + normal . (u - u_other)`` never becomes negative. At an impact its
+    rate turns from ``d'`` to ``-restitution d'``; rebounds that become too low to be told from
+    nothing end in rest, until a load lifts the structure off. The exact method alone takes it.
+
+    Parameters
+    ----------
+    name
+        What the stop is called in results.
+    node
+        The node that it stops: a node's name or a point along a beam (``"AB@0.462"``).
+    normal
+        Direction along which the obstacle pushes the structure, in global axes; any length
+        but zero, kept as a unit vector.
+    other
+        A node that carries the obstacle: the stop acts between the two.
+    terms
+        Instead of node, normal and other: the weight of each (node, dof) in the distance.
+    gap
+        Distance in m to the obstacle where the structure is undeformed.
+    restitution
+        Part of the speed that is given back, from 0 to 1.
+    obstacle
+        Shape of the obstacle: ``"plane"``.
+
+    Raises
+    ------
+    InputError
+        If a number is out of its range, the normal has no length, or the obstacle is unknown.
+
+    References
+    ----------
+    J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, in
+    *Nonsmooth Mechanics and Applications*, CISM 302, Springer, 1988.
+
+    Examples
+    --------
+    A ball falls 1 m and bounces; it lies still after sqrt(2 h / g) (1 + e) / (1 - e).
+
+    >>> import bumpstop as bs
+    >>> basis = bs.ModalBasis.from_modes(frequency=[0], damping=[0], shapes={("P", "dz"): [1]})
+    >>> floor = bs.RigidStop("floor", node="P", normal=(0, 0, 1), gap=1.0, restitution=0.5)
+    >>> weight = bs.NodalForce("weight", node="P", force=(0, 0, -9.81))
+    >>> problem = bs.Problem(basis, laws=[floor], loads=[weight], duration=2.0)
+    >>> print(f"{bs.simulate(problem).impact_table()['start'][-1]:.4f}")
+    1.3546
+    """
+
+    table: ClassVar[str] = "stops"
+    """Where a problem keeps it, in words for messages."""
+
+    name: str
+    _: KW_ONLY
+    node: str = None  # type: ignore[assignment]  # told by the terms where it is left out
+    normal: Vector = None  # type: ignore[assignment]  # as the node
+    other: str | None = None
+    terms: Terms | None = None
+    gap: float = 0.0
+    restitution: float
+    obstacle: str = "plane"
+
+    def __post_init__(self) -> None:
+        name("name", self.name)
+        one_of("obstacle", self.obstacle, OBSTACLES)
+        contact = Coordinate.of(self.node, "normal", self.normal, self.other, self.terms)
+        object.__setattr__(self, "node", contact.node)
+        object.__setattr__(self, "normal", contact.direction)
+        object.__setattr__(self, "terms", contact.terms)
+        object.__setattr__(self, "gap", finite("gap", self.gap))
+        restitution = finite("restitution", self.restitution)
+        if not 0.0 <= restitution <= 1.0:
+            raise InputError("must be from 0 to 1", key="restitution", value=self.restitution)
+        object.__setattr__(self, "restitution", restitution)
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """The coordinate that its distance is measured along."""
+        return Coordinate(self.node, self.normal, self.other, self.terms)
+
+    def row(self, basis: ModalBasis) -> FloatArray:
+        """Return the distance per unit of each modal displacement, (N,).
+
+        Raises
+        ------
+        InputError
+            If the basis has no shape at a node, or none that changes the distance.
+        """
+        return contact_row(self.coordinate, basis)
+
+    def check_start(self, basis: ModalBasis, displacement: FloatArray) -> None:
+        """Refuse a start, at modal displacements (N,), inside the stop.
+
+        Raises
+        ------
+        InputError
+            If the structure is beyond the obstacle by more than rounding.
+        """
+        terms = self.row(basis) * displacement
+        distance = self.gap + float(terms.sum())
+        if distance < -ROUNDING * (abs(self.gap) + float(np.abs(terms).sum())):
+            what = f"the structure starts {-distance:.3g} m inside this rigid stop"
+            raise InputError(what, key=f"stops.{self.name}.gap", value=self.gap)
+
+    def core(self, basis: ModalBasis) -> _core.RigidStop:
+        """Return the stop as the core sees it; see `row`."""
+        from bumpstop import _core
+
+        return _core.RigidStop(self.row(basis), self.gap, self.restitution)
