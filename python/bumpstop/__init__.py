@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
+    from bumpstop.loads.translation import RigidTranslation
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.modal.certificate import SturmCount
     from bumpstop.modal.damping import RayleighDamping, StructuralDamping
@@ -109,6 +110,7 @@ __all__ = [
     "RigidLink",
     "RigidRotation",
     "RigidStop",
+    "RigidTranslation",
     "Rotation",
     "Section",
     "Spring",
@@ -178,6 +180,7 @@ _HOME = {
     "Response": "response",
     "RigidLink": "structure.link",
     "RigidRotation": "loads.initial",
+    "RigidTranslation": "loads.translation",
     "Rotation": "modal.substructure.rotation",
     "Section": "structure.sections.section",
     "Spring": "structure.spring",

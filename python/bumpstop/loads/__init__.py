@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
+    from bumpstop.loads.translation import RigidTranslation
 
 __all__ = [
     "BaseMotion",
@@ -21,6 +22,7 @@ __all__ = [
     "NodalForce",
     "Polynomial",
     "RigidRotation",
+    "RigidTranslation",
     "TimeTable",
 ]
 
@@ -34,6 +36,7 @@ __getattr__ = lazy_names(
         "NodalForce": "force",
         "Polynomial": "time",
         "RigidRotation": "initial",
+        "RigidTranslation": "translation",
         "TimeTable": "time",
     },
 )

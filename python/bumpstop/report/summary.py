@@ -15,6 +15,7 @@ from bumpstop.loads import (
     NodalForce,
     Polynomial,
     RigidRotation,
+    RigidTranslation,
     TimeTable,
 )
 from bumpstop.modal.substructure import Assembly
@@ -270,6 +271,9 @@ def _initial(initial: InitialState | None) -> str:
         return "at rest, undeformed"
     if isinstance(initial, RigidRotation):
         return f"turns about {initial.about} as a rigid body with {_vector(initial.rate, 'rad/s')}"
+    if isinstance(initial, RigidTranslation):
+        parts = [*(initial.nodes or ()), *(initial.beams or ())]
+        return f"{', '.join(parts) or 'the whole'} moves with {_vector(initial.velocity, 'm/s')}"
     if isinstance(initial, ModalState):
         given = [key for key in ("displacement", "velocity") if getattr(initial, key) is not None]
         return f"given modal {' and '.join(given) or 'state'}"

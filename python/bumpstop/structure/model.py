@@ -10,7 +10,14 @@ from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
-__all__ = ["InertiaModel", "LinearModel", "RemarkingModel", "StrainModel", "VibratingModel"]
+__all__ = [
+    "BeamModel",
+    "InertiaModel",
+    "LinearModel",
+    "RemarkingModel",
+    "StrainModel",
+    "VibratingModel",
+]
 
 
 class VibratingModel(Protocol):
@@ -96,6 +103,14 @@ class RemarkingModel(Protocol):
     @property
     def remarks(self) -> tuple[str, ...]:
         """What a user should know, a line each."""
+
+
+@runtime_checkable
+class BeamModel(Protocol):
+    """What a model offers beside, if its beams can be named."""
+
+    def beam_nodes(self, beam: str) -> tuple[str, ...]:
+        """Return the nodes of a beam, from end to end."""
 
 
 @runtime_checkable

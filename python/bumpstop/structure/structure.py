@@ -217,6 +217,17 @@ class Structure:
             raise InputError("is outside the section", key="fibre", value=gauge.fibre, hint=hint)
         return beam.strain_form(self.mesh, gauge.at, gauge.fibre)
 
+    def beam_nodes(self, beam: str) -> tuple[str, ...]:
+        """Return the nodes of a beam, from end to end.
+
+        Raises
+        ------
+        InputError
+            If the beam is unknown.
+        """
+        found = self._beam(beam, "beams")
+        return (found.nodes[0], *found.inner_nodes, found.nodes[1])
+
     def position(self, node: str) -> Vector:
         """Return where a node, or a point along a beam, is at rest, in m.
 

@@ -214,6 +214,17 @@ class Assembly:
         part, beam = self._split(gauge.beam, "beam")
         return self._form(part, self._parts[part].strain_form(replace(gauge, beam=beam)))
 
+    def beam_nodes(self, beam: str) -> tuple[str, ...]:
+        """Return the nodes of a beam, ``"left.AB"``, from end to end.
+
+        Raises
+        ------
+        InputError
+            If the part or the beam is unknown.
+        """
+        part, inner = self._split(beam, "beams")
+        return self._parts[part].beam_nodes(inner)
+
     def position(self, node: str) -> Vector:
         """Return where a node, or a point along a beam, is at rest, in m.
 

@@ -17,7 +17,7 @@ from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.drawn import DrawnModel, Line
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
-from bumpstop.structure.model import StrainModel
+from bumpstop.structure.model import BeamModel, StrainModel
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
 __all__ = ["Part"]
@@ -131,6 +131,13 @@ class Part:
                 np.add.at(field, form.dofs, self._axes[axis, own] * form.weights)
         return self._form(field)
 
+    def beam_nodes(self, beam: str) -> tuple[str, ...]:
+        """Return the nodes of a beam, named without the part's name; theirs have it."""
+        with self._named():
+            if not isinstance(self._model, BeamModel):
+                raise InputError("the component has no beams", key="beams", value=beam)
+            return tuple(f"{self.name}.{node}" for node in self._model.beam_nodes(beam))
+
     def strain_form(self, gauge: Gauge) -> LinearForm:
         """Return the strain of a gauge, its beam without the part's name, as a form of the rows."""
         field = np.zeros(len(self._model.dofs))
@@ -208,7 +215,7 @@ class Part:
             yield
         except InputError as error:
             value = error.value
-            if isinstance(value, str) and error.key in ("node", "beam", None):
+            if isinstance(value, str) and error.key in ("node", "beam", "beams", None):
                 value = f"{self.name}.{value}"
             raise InputError(error.what, key=error.key, value=value, hint=error.hint) from error
 

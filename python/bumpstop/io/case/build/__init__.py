@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop.io.case.build.basis import built_basis, static_places
 from bumpstop.io.case.build.gauges import built_gauges
-from bumpstop.io.case.build.initial import built_initial
+from bumpstop.io.case.build.initial import built_initial, state_key
 from bumpstop.io.case.build.laws import built_laws
 from bumpstop.io.case.build.loads import BASE_MOTION, built_loads
 from bumpstop.io.case.build.source import SOURCES, require_one_source
@@ -87,7 +87,6 @@ def _same_basis(one: CaseFile, other: CaseFile) -> bool:
 
 def _renamed(case: CaseFile) -> dict[str, str]:
     """Return where in the file the arguments of a problem stand."""
-    state = "initial.rotation" if case.initial and case.initial.rotation else "initial.modal"
     tables = {f"loads.{name}.time": f"loads.{name}.table" for name in case.loads}
     base_motion = {
         f"loads.{BASE_MOTION}": BASE_MOTION,
@@ -95,4 +94,8 @@ def _renamed(case: CaseFile) -> dict[str, str]:
     }
     if case.base_motion is not None:
         tables |= base_motion
-    return tables | {"duration": "run.duration", "sample": "run.sample", "initial": state}
+    return tables | {
+        "duration": "run.duration",
+        "sample": "run.sample",
+        "initial": state_key(case.initial),
+    }

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.initial import InitialTable
     from bumpstop.problem import InitialState
 
-__all__ = ["built_initial"]
+__all__ = ["built_initial", "state_key"]
 
 
 def built_initial(table: InitialTable | None) -> InitialState | None:
@@ -20,11 +20,24 @@ def built_initial(table: InitialTable | None) -> InitialState | None:
     if table is None:
         return None
     with keyed("initial"):
-        if table.rotation and table.modal:
-            raise InputError("rotation and modal exclude each other", hint="give one of them")
+        given = _given(table)
+        if not given:
+            raise InputError("is empty", hint="give one of its keys, or leave [initial] out")
+        if len(given) > 1:
+            what = f"{' and '.join(given)} exclude each other"
+            raise InputError(what, hint="give one of them")
         if table.rotation:
             return loads.RigidRotation(about=table.rotation.about, rate=table.rotation.rate)
-        if table.modal:
-            state = table.modal
-            return loads.ModalState(displacement=state.displacement, velocity=state.velocity)
-        raise InputError("is empty", hint="give rotation or modal, or leave [initial] out")
+        if table.translation:
+            moving = table.translation
+            return loads.RigidTranslation(moving.velocity, nodes=moving.nodes, beams=moving.beams)
+        return loads.ModalState(**dict(table.modal or ()))
+
+
+def state_key(table: InitialTable | None) -> str:
+    """Return where in the file the initial state stands."""
+    return ".".join(["initial", *(_given(table) if table else ())])
+
+
+def _given(table: InitialTable) -> list[str]:
+    return [key for key, state in table if state is not None]

@@ -38,6 +38,7 @@ __all__ = [
     "Ratio",
     "Stiffness",
     "Times",
+    "Velocity3",
     "Written",
     "WrittenList",
     "read_number",
@@ -54,6 +55,7 @@ _MASS = Dimension("a mass", "kg", "300 g")
 _STIFFNESS = Dimension("a stiffness", "N/m", "18 kN/m")
 _DAMPING = Dimension("a damping constant", "N*s/m", "20 N*s/m")
 _ACCELERATION = Dimension("an acceleration", "m/s^2", "386 in/s^2")
+_VELOCITY = Dimension("a velocity", "m/s", "10 in/s")
 _ANGLE = Dimension("an angle", "rad", "90 deg")
 _ANGULAR_RATE = Dimension("an angular rate", "rad/s", "30 deg/s")
 _TIME = Dimension("a time", "s", "20 ms")
@@ -186,6 +188,7 @@ Length2 = Annotated[tuple[float, float], _vector(_LENGTH, length=2)]
 Length3 = Annotated[tuple[float, float, float], _vector(_LENGTH)]
 Number3 = Annotated[tuple[float, float, float], _vector(_NUMBER)]
 Acceleration3 = Annotated[tuple[float, float, float], _vector(_ACCELERATION)]
+Velocity3 = Annotated[tuple[float, float, float], _vector(_VELOCITY)]
 AngularRate3 = Annotated[tuple[float, float, float], _vector(_ANGULAR_RATE)]
 Force3 = Annotated[tuple[float, float, float], _vector(_FORCE)]
 Moment3 = Annotated[tuple[float, float, float], _vector(_MOMENT)]
