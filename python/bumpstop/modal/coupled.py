@@ -22,6 +22,8 @@ FEW = 200
 """So many dofs are solved faster with dense matrices than with sparse ones."""
 MOST_COMPLETE = 5000
 """Most dofs that move together of which all modes can be had: it takes dense matrices."""
+MOST_LEFT = 1e-10
+"""Largest part of a shape, in the norm of the stiffness, that its equation may leave."""
 
 
 class CoupledModes(NamedTuple):
@@ -106,7 +108,7 @@ def _dense_modes(
     )
     most = complement.shape[1]
     count = min(selection.count, most) if isinstance(selection, LowestModes) else most
-    values, vectors = _solved(reduced_stiffness, reduced_mass, count)
+    values, vectors = _lowest(reduced_stiffness, reduced_mass, count)
     everything = np.sort(np.concatenate([np.zeros(still.shape[1]), values]))
     within = range_of(selection, everything)
     needed = int(np.count_nonzero(values < within.high))
@@ -119,6 +121,42 @@ def _dense_modes(
     omega2 = np.sum(shapes * (dense_stiffness @ shapes), axis=0)
     proven = _count(stiffness, mass, within) == len(within.holds(everything))
     return _in_order(still, omega2, shapes, within, proven=proven)
+
+
+def _lowest(stiffness: FloatArray, mass: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
+    """Return all eigenvalues of dense matrices and the ``count`` lowest shapes.
+
+    Beside very stiff or nearly massless parts, which put the highest eigenvalues out of all
+    proportion, rounding may drown the lowest ones of K x = omega2 M x. They are then the
+    largest ones of M x = mu K x with mu = 1 / omega2.
+    """
+    values, shapes = _solved(stiffness, mass, count)
+    if count == len(mass) or _is_accurate(stiffness, mass, values[:count], shapes):
+        return values, shapes
+    try:
+        inverse, shapes = symmetric_modes(-mass, stiffness, count)
+    except CoreError:  # the stiffness is not positive definite: nothing better is known
+        return values, shapes
+    # Motions without mass, within rounding: no frequency is too high for them.
+    values = np.full(len(mass), math.inf)
+    np.divide(-1.0, inverse, out=values, where=inverse < 0.0)
+    return values, shapes
+
+
+def _is_accurate(
+    stiffness: FloatArray, mass: FloatArray, omega2: FloatArray, shapes: FloatArray
+) -> bool:
+    """Tell whether shapes of unit modal mass leave little of ``x = omega2 inv(K) M x``.
+
+    What they leave, in the norm of K and beside x, bounds the relative error of omega2
+    (B. N. Parlett, The Symmetric Eigenvalue Problem, 1998, theorem 4.5.1, for inv(K) M).
+    """
+    try:
+        left = shapes - omega2 * np.linalg.solve(stiffness, mass @ shapes)
+    except np.linalg.LinAlgError:
+        return False
+    left_over = np.sum(left * (stiffness @ left), axis=0)
+    return bool(np.all(np.abs(left_over) <= MOST_LEFT**2 * np.abs(omega2)))
 
 
 def _solved(stiffness: FloatArray, mass: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:

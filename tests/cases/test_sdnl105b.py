@@ -1,0 +1,81 @@
+"""The case SDNL105B: substructures that touch each other, against published runs."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+from bumpstop.post.references import check_references
+
+
+@pytest.fixture(scope="module")
+def case() -> bs.Case:
+    return bs.load_case(Path(__file__).parents[2] / "cases" / "sdnl105b" / "case.toml")
+
+
+@pytest.mark.parametrize(
+    ("variant", "checks"), [("converged", 12), ("published", 12), ("complete", 6)]
+)
+def test_references(variant: str, checks: int, case: bs.Case) -> None:
+    method = case.methods[variant].name
+    dt = 2e-4 if method == "symplectic_euler" else None
+    response = bs.simulate(case.problems[variant], method, dt=dt)
+    done = check_references(response, case.references[variant])
+    assert len(done) == 15 + checks
+    assert all(check.passed for check in done)
+
+
+def test_the_stops_push_both_beams_alike(case: bs.Case) -> None:
+    """Newton's laws for each beam: what it gains of momentum comes from its neighbours."""
+    response = bs.simulate(case.problems["converged"], "exact")
+    assert response.energy_residual < 1e-12
+    impacts = response.impact_table()
+    assert set(impacts["stop"]) == {"lower", "upper"}
+    times = np.linspace(0.0, 1.0, 4001)
+    for stop, (low, high) in {"lower": ("one", "two"), "upper": ("two", "three")}.items():
+        below, above = (
+            response.sample("displacement", f"{part}.M", "dy", times=times) for part in (low, high)
+        )
+        gap = 1e-3 + above - below
+        np.testing.assert_allclose(response.sample("gap", stop, times=times), gap, atol=1e-15)
+        force = response.sample("stop_force", stop, times=times)
+        np.testing.assert_allclose(force, np.maximum(0.0, -1e8 * gap), atol=1e-6)
+
+
+def test_frequencies_are_those_of_clamped_beams_nearly(case: bs.Case) -> None:
+    """The ten elements of the beam clamped at both ends, by another eigensolver."""
+    from scipy.linalg import eigh
+
+    frequencies = np.sqrt(eigh(*_clamped_beam(), eigvals_only=True)[:5]) / (2.0 * np.pi)
+    triples = case.bases["complete"].frequencies.reshape(5, 3)
+    assert np.all(triples < frequencies[:, np.newaxis])
+    np.testing.assert_allclose(triples, frequencies[:, np.newaxis].repeat(3, axis=1), rtol=1.2e-5)
+
+
+def _clamped_beam() -> tuple[np.ndarray, np.ndarray]:
+    """Return stiffness and mass matrix of ten Hermite elements, the ends held."""
+    area, inertia = np.pi * (0.1**2 - 0.09**2), np.pi / 4 * (0.1**4 - 0.09**4)
+    h = 0.1
+    bending = np.array(
+        [
+            [12, 6 * h, -12, 6 * h],
+            [6 * h, 4 * h * h, -6 * h, 2 * h * h],
+            [-12, -6 * h, 12, -6 * h],
+            [6 * h, 2 * h * h, -6 * h, 4 * h * h],
+        ]
+    )
+    inertial = np.array(
+        [
+            [156, 22 * h, 54, -13 * h],
+            [22 * h, 4 * h * h, 13 * h, -3 * h * h],
+            [54, 13 * h, 156, -22 * h],
+            [-13 * h, -3 * h * h, -22 * h, 4 * h * h],
+        ]
+    )
+    stiffness, mass = np.zeros((22, 22)), np.zeros((22, 22))
+    for element in range(10):
+        place = slice(2 * element, 2 * element + 4)
+        stiffness[place, place] += 1e10 * inertia / h**3 * bending
+        mass[place, place] += 1e8 * area * h / 420 * inertial
+    return stiffness[2:-2, 2:-2], mass[2:-2, 2:-2]
