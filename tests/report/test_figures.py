@@ -64,7 +64,8 @@ def test_displacement_with_its_published_points(sdnl32: Run) -> None:
     expected = response.sample("displacement", "B", "dy", times=np.arange(1, 13) * 1e-3)
     np.testing.assert_allclose(computed["y"][at], expected * 1e3, rtol=1e-12)
     deviation = (expected[4] + 0.124e-3) / 0.124e-3 * 100.0
-    assert published["customdata"][4] == pytest.approx(deviation)
+    told = f"{expected[4] * 1e3:.4f} mm ({deviation:+.2f} %)"
+    assert published["customdata"][4] == told.replace("-", "−")
     assert figure["layout"]["xaxis"]["range"] == [0.0, 20.0]
 
 
@@ -81,7 +82,8 @@ def test_a_published_zero_has_no_relative_deviation(soft: bs.Response) -> None:
         quantity="gap", stop="spring", times=[0.0], values=[0.0], absolute_tolerance=1e-9
     )
     figure = figures.gap(soft, "spring", [zero])
-    assert math.isnan(trace(figure, "Published")["customdata"][0])
+    (told,) = trace(figure, "Published")["customdata"]
+    assert told.endswith(" mm")
 
 
 def test_force_is_stiffness_times_what_the_gap_lacks(soft: bs.Response) -> None:

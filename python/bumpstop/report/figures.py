@@ -22,7 +22,7 @@ from bumpstop.report.plotting import (
     line_trace,
     whole_run,
 )
-from bumpstop.report.scales import power_of_ten, scale_for
+from bumpstop.report.scales import percent, power_of_ten, scale_for
 from bumpstop.report.stops import fixed_stops
 from bumpstop.report.words import title_of, unit_of
 
@@ -47,6 +47,9 @@ __all__ = [
 ]
 
 Figure: TypeAlias = dict[str, Any]
+
+LARGEST_RING = 6
+"""Size of a ring in pixels: plotly would tell of the curve through the middle of a larger one."""
 
 LEDGER = {
     "kinetic": ("Kinetic", "kinetic"),
@@ -224,7 +227,11 @@ def _over_time(
     if moments.size:
         found = values[np.searchsorted(times, moments)]
         data.append(_published(time.scaled(moments), wanted, found, across))
+    for trace in data:
+        trace["hovertemplate"] += f"<br>at %{{x:.5~g}} {time.scale.unit}<extra></extra>"
     layout = layout_of(title_of(target), time, across, _extremes(times, values, across, time))
+    # Published points lie between samples: a value belongs to the instant of its own point.
+    layout["hovermode"] = "closest"
     layout["xaxis"] |= whole_run(response, time)
     layout["showlegend"] = bool(moments.size)
     layout["shapes"] = contact_bands(response, time.scale)
@@ -246,24 +253,28 @@ def _extremes(times: FloatArray, values: FloatArray, axis: Axis, clock: Axis) ->
 
 
 def _published(x: FloatArray, wanted: FloatArray, found: FloatArray, axis: Axis) -> dict[str, Any]:
-    with np.errstate(divide="ignore", invalid="ignore"):
-        deviation = np.where(wanted == 0.0, np.nan, (found - wanted) / np.abs(wanted)) * 100.0
     return {
         "type": "scatter",
         "mode": "markers",
         "name": "Published",
         "x": x,
         "y": axis.scaled(wanted),
-        "customdata": deviation,
+        "customdata": [_computed(*pair, axis) for pair in zip(wanted, found, strict=True)],
         "cliponaxis": False,
         "marker": {
             "symbol": "circle-open",
-            "size": 9,
+            "size": LARGEST_RING,
             "color": LIGHT["published"],
-            "line": {"width": 1.8},
+            "line": {"width": 1.6},
         },
-        "hovertemplate": (f"%{{y:.5~g}} {axis.scale.unit} (computed: %{{customdata:+.2f}} %)"),
+        "hovertemplate": f"published %{{y:.5~g}} {axis.scale.unit}<br>computed %{{customdata}}",
     }
+
+
+def _computed(wanted: float, found: float, axis: Axis) -> str:
+    """Return what was computed where a value is published, and how far it is from that."""
+    told = f"{axis.scale.show(found)} {axis.scale.unit}"
+    return f"{told} ({percent((found - wanted) / abs(wanted), sign=True)})" if wanted else told
 
 
 def _contact_places(response: Response, node: str, dof: str) -> list[float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pytest
 
 import bumpstop as bs
 
@@ -41,17 +42,62 @@ class TestPlots:
             for title in (".xtitle", ".ytitle"):
                 assert place.locator(title).inner_html().endswith(")")
 
-    def test_hovering_tells_values_with_units(self, page: Page) -> None:
-        place = page.locator("#variant-1 [data-figure]").first
-        draw_all(page)
+    @pytest.mark.parametrize(
+        ("number", "target", "unit"),
+        [
+            (0, ("displacement", "B", "dy"), "mm"),
+            (1, ("stop_force", "spring"), "N"),
+            (2, ("gap", "spring"), "mm"),
+            (3, ("gauge", "strain"), "µε"),
+        ],
+    )
+    @pytest.mark.parametrize("time", [0.5, 6.37, 15.0])
+    def test_pointing_at_a_curve_tells_value_unit_and_instant(
+        self,
+        page: Page,
+        soft: bs.Response,
+        number: int,
+        target: tuple[str, ...],
+        unit: str,
+        time: float,
+    ) -> None:
+        factor = {"mm": 1e3, "N": 1.0, "µε": 1e6}[unit]
+        told, instant = self.pointed_at(
+            page, number, time, factor * soft.sample(*target, times=[time * 1e-3])[0]
+        )
+        when = float(instant.removeprefix("at ").removesuffix(" ms"))
+        assert when == pytest.approx(time, abs=0.05)  # a pixel
+        expected = factor * soft.sample(*target, times=[when * 1e-3])[0]
+        assert float(told.removesuffix(f" {unit}")) == pytest.approx(expected, rel=1e-3, abs=1e-6)
+
+    @pytest.mark.parametrize(("time", "published"), [(1.0, -2.66), (6.0, -2.87)])
+    def test_pointing_at_a_published_value_compares_it(
+        self, page: Page, soft: bs.Response, time: float, published: float
+    ) -> None:
+        (value,) = soft.sample("displacement", "B", "dy", times=[time * 1e-3]) * 1e3
+        told = self.pointed_at(page, 0, time, published)
+        deviation = 100.0 * (value - published) / abs(published)
+        computed = f"computed {value:.3f} mm ({deviation:+.2f} %)".replace("-", "−")
+        assert told == [f"published {published} mm", computed, f"at {time:.0f} ms"]
+
+    @staticmethod
+    def pointed_at(page: Page, number: int, x: float, y: float) -> list[str]:
+        """Point at a place of a figure, in the units of its axes, and return what it tells."""
+        place = page.locator("#variant-1 [data-figure]").nth(number)
+        page.mouse.move(0, 0)
         place.scroll_into_view_if_needed()
-        box = place.bounding_box()
-        assert box is not None
-        page.mouse.move(box["x"] + box["width"] * 0.5, box["y"] + box["height"] * 0.5)
-        hover = place.locator(".hoverlayer")
-        hover.locator("text").first.wait_for()
-        assert " ms" in hover.inner_html()
-        assert " mm" in hover.inner_html()
+        place.locator(".main-svg").first.wait_for()
+        at = place.evaluate(
+            "(place, [x, y]) => {"
+            " const { xaxis, yaxis } = place._fullLayout, box = place.getBoundingClientRect();"
+            " return [box.x + xaxis._offset + xaxis.c2p(x), box.y + yaxis._offset + yaxis.c2p(y)];"
+            "}",
+            [x, y],
+        )
+        page.mouse.move(*at)
+        lines = place.locator(".hoverlayer .nums tspan")
+        lines.first.wait_for()
+        return lines.all_text_contents()
 
     def test_no_button_sends_data_away(self, page: Page) -> None:
         draw_all(page)
