@@ -126,10 +126,16 @@ def test_frames_are_the_response(soft: bs.Response) -> None:
     tip = drawn.nodes["B"]
     np.testing.assert_allclose(
         scene["modal"] @ scene["shapes"][tip, 1],
-        soft.sample("displacement", "B", "dy", times=scene["times"]),
+        soft.sample(
+            "displacement",
+            "B",
+            "dy",
+            times=np.linspace(0.0, scene["duration"], scene["frames"] + 1),
+        ),
         atol=1e-15,
     )
-    assert scene["times"][-1] == 0.02
+    assert scene["duration"] == 0.02
+    assert scene["contacts"] == [[(0.0, soft.impact_table()["end"][0])]]
     (stop,) = scene["stops"]
     np.testing.assert_allclose(stop["normal"], [0.0, 1.0])
     deepest = -float(soft.sample("displacement", "B", "dy").min())
@@ -159,7 +165,7 @@ def test_busy_motions_get_more_frames_within_bounds(
 ) -> None:
     def frames(response: bs.Response, node: str) -> int:
         drawn = outline(response.problem.basis, [node])
-        return len(motion_scene(response, (node, "dy"), drawn)["times"])
+        return int(motion_scene(response, (node, "dy"), drawn)["frames"]) + 1
 
     impacts = len(bouncing.impact_table()["start"])
     assert frames(bouncing, "P") > 20 * impacts

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.report.curves import contact_spans
 from bumpstop.report.outline import UNSEEN, view_of
 from bumpstop.report.scales import scale_for, with_unit
 from bumpstop.report.stops import fixed_stops
@@ -65,10 +66,12 @@ def motion_scene(response: Response, watched: tuple[str, str], drawing: Outline)
     return drawn | {
         "stops": [_stop(stop, drawing, view, response) for stop in stops],
         "magnifications": _magnifications(extent, furthest),
-        "times": times,
+        "duration": problem.duration,
+        "frames": len(times) - 1,
         "timeScale": [clock.factor, clock.unit],
         "modal": modal,
         "forces": np.array(forces),
+        "contacts": [contact_spans(response, stop.name) for stop in stops],
         "forceScale": [force.factor, force.unit],
         "watched": {
             "point": drawing.nodes.get(watched[0], -1),

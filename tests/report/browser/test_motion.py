@@ -59,21 +59,32 @@ class TestMotion:
         assert np.all(np.diff(points[:, 0]) > 0)
         assert points[0, 0] == pytest.approx(x0, abs=0.01)
 
-    def test_contact_is_shown_while_the_stop_pushes(self, page: Page, soft: bs.Response) -> None:
+    def test_contact_is_shown_as_the_table_of_impacts_has_it(
+        self, page: Page, soft: bs.Response
+    ) -> None:
         motion = motion_of(page)
+        ((start, end),) = zip(soft.impacts["start"], soft.impacts["end"], strict=True)
+        assert start == 0.0  # the stop is touched as the run begins, without a force yet
         for frame in (0, 1, 300, 614, 616, 900):
             seek(motion, frame)
-            (force,) = soft.sample("stop_force", "spring", times=[0.02 * frame / LAST_FRAME])
-            closed = force > 1e-6
+            closed = start <= 0.02 * frame / LAST_FRAME < end
             expected = "closed" if closed else "open"
             assert motion.get_attribute("data-contact") == expected
             stop = motion.locator("[data-stop=spring]")
             assert stop.get_attribute("data-contact") == expected
             role = "contact" if closed else "muted"
             assert colour(stop.locator(".spring"), "stroke") == LIGHT[role]
-            assert bool(motion.locator(".force").get_attribute("d")) == closed
+            pushed = closed and frame > 0
+            assert bool(motion.locator(".force").get_attribute("d")) == pushed
             chip = "in contact" if closed else "free"
             assert motion.locator("[data-value=contact]").inner_text() == chip
+
+    def test_the_time_line_shades_the_same_contacts(self, page: Page, soft: bs.Response) -> None:
+        strip = motion_of(page).locator("[data-part=strip]")
+        (band,) = strip.locator(".contact-band").all()
+        left, width = (float(band.get_attribute(key) or "nan") for key in ("x", "width"))
+        whole = float(strip.get_attribute("width") or "nan") - 2 * left
+        assert width / whole == pytest.approx(soft.impacts["end"][0] / 0.02, rel=1e-3)
 
     def test_the_stop_touches_the_beam_while_closed_and_rests_while_open(self, page: Page) -> None:
         motion = motion_of(page)
@@ -197,8 +208,8 @@ class TestBall:
             instant = 0.5 * frame / LAST_FRAME
             (height,) = response.sample("displacement", "P", "dz", times=[instant])
             assert node(motion, "P")[1] == pytest.approx(start - scale * height, abs=0.01)
-            (force,) = response.sample("stop_force", "spring", times=[instant])
-            expected = "closed" if force > 0 else "open"
+            (gap,) = response.sample("gap", "spring", times=[instant])
+            expected = "closed" if gap < 0 else "open"
             assert motion.get_attribute("data-contact") == expected
 
     def test_there_is_nothing_to_magnify(self, opened: Opened, ball_page: Path) -> None:

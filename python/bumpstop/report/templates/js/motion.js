@@ -8,9 +8,9 @@ class Motion {
   constructor(root, scene) {
     this.root = root;
     this.scene = scene;
-    this.last = scene.times.length - 1;
-    this.duration = scene.times[this.last];
-    this.modes = scene.modal.length / scene.times.length;
+    this.last = scene.frames;
+    this.duration = scene.duration;
+    this.modes = scene.modal.length / (scene.frames + 1);
     this.frame = 0;
     this.playing = false;
     this.slowdown = scene.paces.choices[scene.paces.first].slowdown;
@@ -121,9 +121,15 @@ class Motion {
     return this.between(this.scene.forces, stop * (this.last + 1), 1, frame);
   }
 
-  // Whether a force is more than rounding.
-  pushes(force) {
-    return force > 1e-9 * this.largestForce;
+  // As the table of impacts says, which a force does not: it is zero at the instant of closing.
+  isClosed(stop, time) {
+    return this.scene.contacts[stop].some(
+      ([start, end]) => start <= time && (time < end || end === this.duration),
+    );
+  }
+
+  timeAt(frame) {
+    return (this.duration * frame) / this.last;
   }
 
   seek(frame) {
@@ -145,10 +151,10 @@ class Motion {
   }
 
   hardestFrame() {
-    const { forces, times } = this.scene;
+    const { forces, frames } = this.scene;
     let best = 0;
     for (let i = 1; i < forces.length; i += 1) if (forces[i] > forces[best]) best = i;
-    return best % times.length;
+    return best % (frames + 1);
   }
 
   layOut() {
@@ -263,7 +269,7 @@ class Motion {
     const along = u * stop.normal[0] + v * stop.normal[1];
     const squared = stop.normal[0] ** 2 + stop.normal[1] ** 2;
     const distance = stop.gap + along / squared;
-    const closed = this.pushes(force);
+    const closed = this.isClosed(index, this.timeAt(this.frame));
     const pressed = closed ? Math.max(0, -distance) * drawn.pixels : 0;
     const at = drawn.away(drawn.surface + pressed);
     const across = [-drawn.normal[1] * 14, drawn.normal[0] * 14];
@@ -275,12 +281,13 @@ class Motion {
       ]),
     });
     drawn.group.dataset.contact = closed ? "closed" : "open";
-    this.showForce(this.arrows[index], drawn, at, closed ? force / this.largestForce : 0);
+    this.showForce(this.arrows[index], drawn, at, force / this.largestForce);
   }
 
   // The force on the structure, as an arrow that ends at the far side of what it pushes.
   showForce(arrow, { normal, surface }, at, share) {
-    if (share <= 0) {
+    // Nothing but rounding, or a stop that never pushes for a while.
+    if (!(share > 1e-9)) {
       arrow.setAttribute("d", "");
       return;
     }
@@ -311,8 +318,9 @@ class Motion {
     this.stripY = y;
     strip.replaceChildren();
     set(strip, { width, height: this.stripHeight });
-    for (const [from, to] of this.closedFrames()) {
-      const band = { x: x(from), width: Math.max(x(to) - x(from), 1), y: 0, height: this.stripHeight };
+    for (const [start, end] of this.closedSpans()) {
+      const [left, right] = [start, end].map((time) => x((this.last * time) / this.duration));
+      const band = { x: left, width: Math.max(right - left, 1), y: 0, height: this.stripHeight };
       svg("rect", { class: "contact-band", ...band }, strip);
     }
     svg("path", { class: "zero-line", d: pathThrough([[x(0), y(0)], [x(this.last), y(0)]]) }, strip);
@@ -322,19 +330,13 @@ class Motion {
     this.dot = svg("circle", { class: "cursor-dot", r: 4.5 }, strip);
   }
 
-  // Stretches of frames in which any stop pushes.
-  closedFrames() {
+  // Stretches of time in which any stop is closed.
+  closedSpans() {
     const spans = [];
-    let start = null;
-    for (let frame = 0; frame <= this.last + 1; frame += 1) {
-      const closed =
-        frame <= this.last &&
-        this.scene.stops.some((_, stop) => this.pushes(this.forceAt(stop, frame)));
-      if (closed && start === null) start = frame;
-      if (!closed && start !== null) {
-        spans.push([start, frame - 1]);
-        start = null;
-      }
+    for (const [start, end] of this.scene.contacts.flat().sort(([one], [other]) => one - other)) {
+      const before = spans.at(-1);
+      if (before && start <= before[1]) before[1] = Math.max(before[1], end);
+      else spans.push([start, end]);
     }
     return spans;
   }
@@ -360,12 +362,12 @@ class Motion {
 
   tell(value) {
     const { scene, frame } = this;
-    const time = this.between(scene.times, 0, 1, frame);
+    const time = this.timeAt(frame);
     const [clock, clockUnit] = scene.timeScale;
     const [factor, unit] = scene.watched.scale;
     const [newton, newtonUnit] = scene.forceScale;
     const forces = scene.stops.map((_, stop) => this.forceAt(stop, frame));
-    const closed = forces.some((force) => this.pushes(force));
+    const closed = scene.stops.some((_, stop) => this.isClosed(stop, time));
     this.watchedRange ??= scene.watched.values.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
     const told = {
       time: `${steady(time * clock, this.duration * clock)} ${clockUnit}`,
