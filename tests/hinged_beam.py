@@ -9,10 +9,11 @@ HINGE = bs.Support(nodes=("A",), fixed=("dy",))
 SWING = bs.RigidRotation(about="A", rate=(0, 0, -3.8))
 
 
-def hinged_beam(elements: int = 10) -> bs.Structure:
-    """Return the beam."""
+def hinged_beam(elements: int = 10, at: tuple[float, float] = (0.0, 0.0)) -> bs.Structure:
+    """Return the beam, with its hinge at a place in the plane."""
+    x, y = at
     return bs.Structure(
-        nodes={"A": (0, 0, 0), "B": (0.783, 0, 0)},
+        nodes={"A": (x, y, 0), "B": (x + 0.783, y, 0)},
         beams=[bs.Beam("AB", nodes=("A", "B"), elements=elements, material=ALLOY, section=BAR)],
         supports=[IN_PLANE, HINGE],
     )

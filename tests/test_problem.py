@@ -56,7 +56,7 @@ def test_lists_become_tuples() -> None:
         ({"gauges": [Gauge("g", beam="AB", at=0.1, fibre=(0, 0))]}, "gauges.g", "structure"),
         ({"gauges": ["g"]}, "gauges", "must hold Gauges only"),
         ({"initial": ModalState(velocity=[1.0])}, "initial.velocity", "each of the 2 modes"),
-        ({"initial": RigidRotation(about="P", rate=(0, 0, 1))}, "initial.about", "structure"),
+        ({"initial": RigidRotation(about="P", rate=(0, 0, 1))}, "initial.rate", "structure"),
         ({"initial": [0.0, 1.0]}, "initial", "must be an initial state"),
         ({"outputs": [("P", "dx", "dy")]}, "outputs", "pairs of a node and a dof"),
         ({"outputs": [("P", "dz")]}, "outputs[0].dof", "'dz'"),

@@ -79,6 +79,9 @@ class InitialState(Protocol):
     def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
         """Return modal displacement and velocity, each (N,)."""
 
+    def remarks(self, basis: ModalBasis) -> tuple[str, ...]:
+        """Return what a user should know of the state on a basis, a line each."""
+
 
 PARTS: dict[str, type[Law | Load | Gauge]] = {"laws": Law, "loads": Load, "gauges": Gauge}
 
@@ -166,6 +169,16 @@ class Problem:
         times = np.arange(whole + 1, dtype=np.float64) * interval
         times[-1] = self.duration
         return times
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a user should know, a line each: of the basis, then of the initial state."""
+        return (*self.basis.remarks, *self.initial_remarks)
+
+    @property
+    def initial_remarks(self) -> tuple[str, ...]:
+        """What a user should know of the initial state on this basis, a line each."""
+        return () if self.initial is None else self.initial.remarks(self.basis)
 
     def _check_sample(self) -> None:
         if self.sample is None:

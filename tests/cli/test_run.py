@@ -57,6 +57,47 @@ def test_summary(call: Output) -> None:
     assert output.count("method symplectic_euler, 2,000 steps, 1 event, 1 impact") == 2
 
 
+FLIES_APART = """
+[nodes]
+P = [0, 0, 0]
+Q = [1, 0, 0]
+[masses.P]
+node = "P"
+mass = 3
+[masses.Q]
+node = "Q"
+mass = 1
+[springs.s]
+node = "P"
+other = "Q"
+stiffness = 1e4
+[[supports]]
+nodes = "all"
+fixed = ["dy", "dz", "drx", "dry", "drz"]
+[basis]
+modes = 1
+[initial]
+translation = { velocity = [2, 0, 0], nodes = ["P"] }
+[run]
+duration = 1
+"""
+
+
+def test_lost_energy_of_the_start_is_told(call: Output, tmp_path: Path) -> None:
+    """P flies alone, and one mode has them both fly: Q's share of the mass is lost."""
+    file = tmp_path / "case.toml"
+    file.write_text(FLIES_APART, encoding="utf-8")
+    told = (
+        "25 % of the kinetic energy of the initial translation is lost: "
+        "the basis cannot follow it; more modes hold more of it"
+    )
+    _, output, _ = call("run", str(file), "--out", str(tmp_path / "out"))
+    assert f"  {told}\n" in output
+    assert told in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    _, output, _ = call("run", str(file), "--json")
+    assert json.loads(output)["variants"][0]["remarks"][1:] == [told]
+
+
 def test_columns_are_aligned(call: Output) -> None:
     _, output, _ = call(*RUN)
     tables = output.split("soft")[1].split("stiff")

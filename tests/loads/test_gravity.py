@@ -16,9 +16,9 @@ from bumpstop import (
 LENGTH, SIDE, DENSITY = 0.783, 0.014, 2400.0
 
 
-def test_weight_on_the_rigid_mode_of_a_hinged_beam(hinged_beam: ModalBasis) -> None:
+def test_weight_on_the_rigid_mode_of_a_hinged_beam(hinged: ModalBasis) -> None:
     """The moment of the weight about the hinge over the root of the moment of inertia."""
-    weight = Gravity("weight", acceleration=(0, -9.81, 0)).modal_force(hinged_beam)
+    weight = Gravity("weight", acceleration=(0, -9.81, 0)).modal_force(hinged)
     line_mass = DENSITY * SIDE**2
     inertia = line_mass * LENGTH**3 / 3 + DENSITY * SIDE**4 / 12 * LENGTH
     moment = 9.81 * line_mass * LENGTH**2 / 2

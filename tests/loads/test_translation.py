@@ -50,24 +50,72 @@ def test_nodes_move_with_all_modes(
     moving: dict[str, Any], expected: list[float], two_bars: ModalBasis
 ) -> None:
     """All modes hold every field that the supports allow, node by node."""
-    _, velocity = RigidTranslation((2, 5, 0), **moving).modal_state(two_bars)
+    _, velocity = RigidTranslation((2, 0, 0), **moving).modal_state(two_bars)
     places = ["A", "AB.1", "AB.2", "B", "C", "CD.1", "CD.2"]
     found = [two_bars.row(place, "dx") @ velocity for place in places]
     np.testing.assert_allclose(found, expected, atol=1e-11)
 
 
-def test_the_whole_moves_where_nothing_is_named(two_bars: ModalBasis) -> None:
-    """D is held, so that the bar that ends there follows as well as the masses let it."""
-    _, all_of_it = RigidTranslation((2, 0, 0)).modal_state(two_bars)
-    _, both = RigidTranslation((2, 0, 0), beams=["AB", "CD"]).modal_state(two_bars)
-    assert all_of_it.tolist() == both.tolist()
-    assert two_bars.row("A", "dx") @ all_of_it == pytest.approx(2.0, rel=1e-11)
-    assert two_bars.row("D", "dx") @ all_of_it == 0.0
+def two_masses(first: float, second: float, modes: int) -> ModalBasis:
+    """Two masses that fly along x, joined by a spring."""
+    structure = Structure(
+        nodes={"P": (0, 0, 0), "Q": (1, 0, 0)},
+        masses=[bs.PointMass("P", node="P", mass=first), bs.PointMass("Q", node="Q", mass=second)],
+        springs=[bs.Spring("s", node="P", other="Q", stiffness=1e4)],
+        supports=[Support(nodes="all", fixed=ALL[1:])],
+    )
+    return ModalBasis.from_structure(structure, modes=modes)
 
 
-def test_what_cannot_move_is_refused(two_bars: ModalBasis) -> None:
+def test_the_whole_moves_where_nothing_is_named() -> None:
+    basis = two_masses(3.0, 1.0, modes=1)
+    state = RigidTranslation((2, 0, 0))
+    _, velocity = state.modal_state(basis)
+    np.testing.assert_allclose([basis.row(p, "dx") @ velocity for p in "PQ"], 2.0, rtol=1e-14)
+    assert state.remarks(basis) == ()
+
+
+@pytest.mark.parametrize(
+    ("flying", "modes", "told"),
+    [(3.0, 1, "25 %"), (98.9, 1, "1.1 %"), (99.1, 1, None), (3.0, 2, None)],
+)
+def test_kinetic_energy_beyond_the_basis_is_told(
+    flying: float, modes: int, told: str | None
+) -> None:
+    """P flies alone: its momentum, and no more of its energy, is in the flight of both."""
+    total = 4.0 if flying == 3.0 else 100.0
+    basis = two_masses(flying, total - flying, modes)
+    state = RigidTranslation((2, 0, 0), nodes="P")
+    _, velocity = state.modal_state(basis)
+    assert velocity[0] == pytest.approx(2.0 * flying / np.sqrt(total), rel=1e-12)
+    remarks = bs.Problem(basis, initial=state, duration=1.0).remarks
+    expected = [] if told is None else [f"{told} of the kinetic energy of the initial translation"]
+    assert [line.partition(" is lost")[0] for line in remarks[1:]] == expected
+
+
+def test_a_field_that_no_mode_has_is_refused() -> None:
+    """A and B fly apart, which is not in the flight of both."""
+    apart = two_masses(2.0, 2.0, modes=2)
+    assert apart.model is not None
+    stretch = ModalBasis.from_vectors(apart.model, apart.shapes[:, 1:])
     with pytest.raises(InputError, match="no mode takes part in this translation"):
-        RigidTranslation((0, 1, 0)).modal_state(two_bars)
+        RigidTranslation((1, 0, 0)).modal_state(stretch)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "moving", "moved"),
+    [
+        ((2, 0, 0), {}, "D dx"),
+        ((2, 0, 0), {"beams": ["AB", "CD"]}, "D dx"),
+        ((2, 5, 0), {"beams": ["AB"]}, "A dy"),
+        ((0, 1, 0), {}, "A dy"),
+    ],
+)
+def test_what_is_held_cannot_fly(
+    velocity: tuple[float, float, float], moving: dict[str, Any], moved: str, two_bars: ModalBasis
+) -> None:
+    with pytest.raises(InputError, match=f"velocity: would move {moved}, which is held, at . m/s"):
+        RigidTranslation(velocity, **moving).modal_state(two_bars)
 
 
 @pytest.mark.parametrize(
@@ -85,7 +133,7 @@ def test_unknown_names(moving: dict[str, Any], message: str, two_bars: ModalBasi
 
 def test_it_needs_a_structure() -> None:
     basis = ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
-    with pytest.raises(InputError, match="needs a structure to move"):
+    with pytest.raises(InputError, match="needs a basis computed from a structure"):
         RigidTranslation((1, 0, 0)).modal_state(basis)
 
 

@@ -24,11 +24,12 @@ def case_record(result: CaseResult) -> dict[str, Any]:
 
 
 def _variant_record(variant: VariantResult, basis: ModalBasis) -> dict[str, Any]:
+    told = basis if variant.response is None else variant.response.problem
     record = {
         "name": variant.name,
         **(_NOTHING_RUN if variant.response is None else _run_record(variant.response)),
         "references": [_check_record(check) for check in variant.checks],
-        "remarks": list(basis.remarks),
+        "remarks": list(told.remarks),
         "passed": variant.passed,
     }
     # Last, since everything read before it is a part of the core's time.

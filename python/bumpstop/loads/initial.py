@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, name, series, vector
 from bumpstop.errors import InputError
+from bumpstop.loads.velocity_field import VelocityField
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
@@ -63,13 +64,17 @@ class ModalState:
         velocity = _one_a_vector("velocity", self.velocity, basis.labels)
         return basis.canonical(displacement), basis.canonical(velocity)
 
+    def remarks(self, _: ModalBasis) -> tuple[str, ...]:
+        """Return nothing: the basis has all of a state that is given in its own vectors."""
+        return ()
+
 
 @dataclass(frozen=True)
-class RigidRotation:
+class RigidRotation(VelocityField):
     """A velocity field: the whole structure turns about a node, undeformed.
 
     A node at x moves with ``rate x (x - about)`` and turns with ``rate``; the field is
-    projected on the modes with the mass matrix.
+    projected on the modes with the mass matrix. Whatever supports hold must stay at rest.
 
     Parameters
     ----------
@@ -92,28 +97,24 @@ class RigidRotation:
     about: str
     rate: Vector
 
+    motion: ClassVar[str] = "rotation"
+    key: ClassVar[str] = "rate"
+    hint: ClassVar[str] = "turn about a hinge, and only about axes that the supports leave free"
+
     def __post_init__(self) -> None:
         name("about", self.about)
         object.__setattr__(self, "rate", vector("rate", self.rate))
 
-    def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
-        """Return modal displacement, which is zero, and velocity, each (N,).
+    def field(self, model: LinearModel) -> FloatArray:
+        """Return the velocity of each dof, in m/s and rad/s, (dofs,).
 
         Raises
         ------
         InputError
-            If the basis was not made from a structure, the structure has no such node, or no
-            mode takes part in the rotation.
+            If the model has no such node.
         """
-        if basis.model is None:
-            hint = "give a ModalState, or make the basis from a structure"
-            raise InputError("needs a structure to turn", key="about", value=self.about, hint=hint)
-        centre = _position(basis.model, self.about)
-        field = basis.model.rigid_field(rotation=self.rate, about=centre)
-        velocity = basis.project_field(field)
-        if any(self.rate) and not velocity.any():
-            raise InputError("no mode takes part in this rotation", key="rate", value=self.rate)
-        return np.zeros(len(velocity)), velocity
+        centre = _position(model, self.about)
+        return model.rigid_field(rotation=self.rate, about=centre)
 
 
 def _position(model: LinearModel, about: str) -> Vector:

@@ -4,28 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, did_you_mean, vector
 from bumpstop.errors import InputError
+from bumpstop.loads.velocity_field import VelocityField
 from bumpstop.structure.model import BeamModel
 from bumpstop.structure.names import names
 
 if TYPE_CHECKING:
-    from bumpstop.modal.basis import ModalBasis
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["RigidTranslation"]
 
 
 @dataclass(frozen=True)
-class RigidTranslation:
+class RigidTranslation(VelocityField):
     """A velocity field: nodes move alike along a straight line and do not turn.
 
     The field is projected on the modes with the mass matrix. Between a node that moves and one
-    that does not, it follows the shape functions of the beam that joins them.
+    that does not, it follows the shape functions of the beam that joins them. Whatever supports
+    hold must stay at rest.
 
     Parameters
     ----------
@@ -50,6 +51,10 @@ class RigidTranslation:
     nodes: str | Sequence[str] | None = None
     beams: str | Sequence[str] | None = None
 
+    motion: ClassVar[str] = "translation"
+    key: ClassVar[str] = "velocity"
+    hint: ClassVar[str] = "name the nodes that move, without those that supports hold"
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "velocity", vector("velocity", self.velocity))
         for key in ("nodes", "beams"):
@@ -57,27 +62,19 @@ class RigidTranslation:
             if given is not None:
                 object.__setattr__(self, key, names(key, given))
 
-    def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
-        """Return modal displacement, which is zero, and velocity, each (N,).
+    def field(self, model: LinearModel) -> FloatArray:
+        """Return the velocity of each dof, in m/s and rad/s, (dofs,).
 
         Raises
         ------
         InputError
-            If the basis was not made from a structure, the structure has no such node or beam,
-            or no mode takes part in the translation.
+            If the model has no such node or beam.
         """
-        if basis.model is None:
-            hint = "give a ModalState, or make the basis from a structure"
-            raise InputError("needs a structure to move", key="velocity", hint=hint)
-        field = basis.model.rigid_field(translation=self.velocity)
-        if self.nodes is not None or self.beams is not None:
-            moving = self._moving(basis.model)
-            field = np.where([node in moving for node, _ in basis.model.dofs], field, 0.0)
-        velocity = basis.project_field(field)
-        if any(self.velocity) and not velocity.any():
-            what = "no mode takes part in this translation"
-            raise InputError(what, key="velocity", value=self.velocity)
-        return np.zeros(len(velocity)), velocity
+        field = model.rigid_field(translation=self.velocity)
+        if self.nodes is None and self.beams is None:
+            return field
+        moving = self._moving(model)
+        return np.where([node in moving for node, _ in model.dofs], field, 0.0)
 
     def _moving(self, model: LinearModel) -> set[str]:
         known = dict.fromkeys(node for node, _ in model.dofs)

@@ -81,7 +81,7 @@ def model_rows(problem: Problem) -> list[Row]:
         ("Stops", [_stop(law) for law in problem.laws if isinstance(law, Stop)]),
         ("Laws", [_law(law) for law in problem.laws if not isinstance(law, Stop)]),
         ("Loads", [_load(load) for load in problem.loads]),
-        ("Initial state", [_initial(problem.initial)]),
+        ("Initial state", [_initial(problem.initial), *problem.initial_remarks]),
         ("Gauges", [_gauge(gauge) for gauge in problem.gauges]),
         ("Time", [_time(problem)]),
     ]
