@@ -26,6 +26,50 @@ def test_references(variant: str, checks: int, case: bs.Case) -> None:
     assert all(check.passed for check in done)
 
 
+def test_one_structure_without_components(case: bs.Case) -> None:
+    """The published references of run 1 are of such a model: agreement to rounding."""
+    basis = bs.ModalBasis.from_structure(_frame(), modes=15)
+    laws = [
+        bs.Stop(low + high, node=high, other=low, normal=(0, 1, 0), gap=1e-3, stiffness=1e8)
+        for low, high in (("one", "two"), ("two", "three"))
+    ]
+    step = bs.NodalForce("step", node="one", force=(0, 1e6, 0))
+    problem = bs.Problem(basis, laws=laws, loads=[step], duration=1.0)
+    response = bs.simulate(problem, "symplectic_euler", dt=2e-4)
+    published = [each for each in case.references["complete"] if each.node]
+    assert len(published) == 6
+    for each in published:
+        node = str(each.node)[:-2]
+        value = response.sample(each.quantity, node, "dy", times=[1.0])
+        assert value == pytest.approx(each.values, rel=2e-12)
+
+
+def _frame() -> bs.Structure:
+    beam = bs.Material(young_modulus=1e10, poisson_ratio=0.3, density=1e8)
+    post = bs.Material(young_modulus=1e15, poisson_ratio=0.3, density=1e-6)
+
+    def made(first: str, last: str, elements: int, material: bs.Material) -> bs.Beam:
+        return bs.Beam(
+            first + last,
+            nodes=(first, last),
+            elements=elements,
+            theory="euler_bernoulli",
+            material=material,
+            section=bs.Tube(outer_radius=0.1, thickness=0.01),
+        )
+
+    sides = {"L": 0.0, "R": 1.0}
+    nodes = {f"{side}{n}": (x, 0.1 * (n - 1), 0.0) for side, x in sides.items() for n in range(7)}
+    beams = [made(f"{side}{n}", f"{side}{n + 1}", 1, post) for side in sides for n in range(6)]
+    for storey, name in enumerate(("one", "two", "three")):
+        nodes[name] = (0.5, 0.2 * storey, 0.0)
+        beams.append(made(f"L{2 * storey + 1}", name, 5, beam))
+        beams.append(made(name, f"R{2 * storey + 1}", 5, beam))
+    in_plane = bs.Support(nodes="all", fixed=("dx", "dz", "drx", "dry"))
+    clamped = bs.Support(nodes=("L0", "L6", "R0", "R6"), fixed=("dy", "drz"))
+    return bs.Structure(nodes=nodes, beams=beams, supports=[in_plane, clamped])
+
+
 def test_the_stops_push_both_beams_alike(case: bs.Case) -> None:
     """Newton's laws for each beam: what it gains of momentum comes from its neighbours."""
     response = bs.simulate(case.problems["converged"], "exact")
