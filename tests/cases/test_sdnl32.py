@@ -1,6 +1,5 @@
 """The case SDNL32, through the whole chain from the file to the tip."""
 
-import runpy
 from pathlib import Path
 
 import numpy as np
@@ -97,15 +96,8 @@ def test_strain_follows_from_the_rotation(variant: str, responses: dict[str, bs.
     assert 5e-4 < np.abs(strain).max() < 5e-3
 
 
-def test_readme_has_the_tables_that_the_script_computes() -> None:
-    readme = runpy.run_path(str(FOLDER / "compare_models.py"))["readme"]
-    written = (FOLDER / "README.md").read_text(encoding="utf-8")
-    assert "| clean: this case | 0.67 % | 0.88 % |" in written
-    assert readme() == written
-
-
 def test_a_static_shape_is_worth_more_than_five_modes() -> None:
-    """By the table of the README, which the test above computes anew."""
+    """By the table of the README, which another test computes anew."""
     errors = {
         row[1].strip(): [float(cell.split()[0]) for cell in row[2:4]]
         for row in (line.split("|") for line in (FOLDER / "README.md").read_text().splitlines())

@@ -14,7 +14,7 @@ from bumpstop.report.published import deviation_told, published, verdict, worst
 from bumpstop.report.summary import method_words, model_rows
 from bumpstop.report.words import title_of
 
-from .conftest import Run
+from .conftest import CASES, Run
 
 
 @pytest.fixture(scope="module")
@@ -182,6 +182,18 @@ def test_the_model_in_words(ball: Run, soft: bs.Response, pendulum: bs.Problem) 
     hung = dict(model_rows(pendulum))
     assert "Beams" not in hung
     assert hung["Stops"][0].endswith("gap 1 mm, 100 kN/m, 20 N s/m")
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        ("sdnl111a", "moves straight with (−1, 0, 0) m/s: flying"),
+        ("bar-on-wall", "moves straight with (−0.1, 0, 0) m/s"),
+    ],
+)
+def test_what_flies_is_named(case: str, words: str) -> None:
+    problem = next(iter(bs.load_case(CASES / case / "case.toml").problems.values()))
+    assert dict(model_rows(problem))["Initial state"] == [words]
 
 
 def test_methods_are_named_with_their_reason(soft: bs.Response) -> None:

@@ -273,7 +273,8 @@ def _initial(initial: InitialState | None) -> str:
         return f"turns about {initial.about} as a rigid body with {_vector(initial.rate, 'rad/s')}"
     if isinstance(initial, RigidTranslation):
         parts = [*(initial.nodes or ()), *(initial.beams or ())]
-        return f"{', '.join(parts) or 'the whole'} moves with {_vector(initial.velocity, 'm/s')}"
+        told = f"moves straight with {_vector(initial.velocity, 'm/s')}"
+        return f"{told}: {', '.join(parts)}" if parts else told
     if isinstance(initial, ModalState):
         given = [key for key in ("displacement", "velocity") if getattr(initial, key) is not None]
         return f"given modal {' and '.join(given) or 'state'}"
