@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from bumpstop.io.meshes import read_mesh
     from bumpstop.io.modes import identify_modes, read_modes
     from bumpstop.laws.friction import Friction
-    from bumpstop.laws.obstacle import Plane
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
@@ -98,7 +97,6 @@ __all__ = [
     "NodalForce",
     "Participation",
     "Placed",
-    "Plane",
     "PointMass",
     "Polynomial",
     "Problem",
@@ -169,7 +167,6 @@ _HOME = {
     "NodalForce": "loads.force",
     "Participation": "modal.masses",
     "Placed": "modal.substructure.placed",
-    "Plane": "laws.obstacle",
     "PointMass": "structure.mass",
     "Polynomial": "loads.time",
     "Problem": "problem",

@@ -32,7 +32,12 @@ def basis() -> ModalBasis:
         ("damping", -1e-9, "must not be negative"),
         ("damping", float("inf"), "must be finite"),
         ("gap", None, "must be a number"),
+        ("gap", float("inf"), "must be finite"),
         ("normal", (0, 0, 0), "zero vector"),
+        ("normal", (0, 1), "3 numbers"),
+        ("normal", "0 1 0", "3 numbers"),
+        ("normal", (0, float("nan"), 0), "finite"),
+        ("normal", (0, True, 0), "a number"),
         ("node", "", "must be a name"),
         ("node", 7, "must be a name"),
         ("obstacle", "plan", "did you mean 'plane'"),
@@ -48,6 +53,12 @@ def test_is_frozen() -> None:
     stop = Stop("guide", **GOOD)
     with pytest.raises(AttributeError):
         stop.stiffness = 1.0  # type: ignore[misc]  # what is tested
+
+
+def test_a_normal_is_kept_as_a_unit_vector() -> None:
+    stop = Stop("guide", **(GOOD | {"normal": (3.0, 0.0, -4.0)}))
+    assert stop.normal == pytest.approx((0.6, 0.0, -0.8), abs=1e-16)
+    assert Stop("guide", **GOOD).normal == (0.0, 1.0, 0.0)
 
 
 def test_row_is_the_normal_times_the_shapes() -> None:

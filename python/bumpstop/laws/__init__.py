@@ -8,16 +8,14 @@ from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
     from bumpstop.laws.friction import Friction
-    from bumpstop.laws.obstacle import Plane
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
 
-__all__ = ["Friction", "Plane", "RigidStop", "SpringLaw", "Stop"]
+__all__ = ["Friction", "RigidStop", "SpringLaw", "Stop"]
 
 _HOME = {
     "Friction": "friction",
-    "Plane": "obstacle",
     "RigidStop": "rigid_stop",
     "SpringLaw": "spring",
     "Stop": "stop",
