@@ -87,6 +87,13 @@ def test_everything_that_can_be_written(load: Load) -> None:
     assert reference.source == "nowhere"
 
 
+@pytest.mark.parametrize("key", ["tolerance", "relative_tolerance"])
+def test_a_relative_tolerance_has_a_short_and_a_full_name(key: str, load: Load) -> None:
+    case = load(BALL + REFERENCE + f"times = [0.5]\nvalues = [1]\n{key} = 0.008")
+    (reference,) = case.references["base"]
+    assert (reference.tolerance, reference.absolute_tolerance) == (0.008, None)
+
+
 def test_units_and_si_numbers_give_the_same_bits(load: Load) -> None:
     text = SDNL32.read_text()
     for si, unit in [
@@ -220,6 +227,10 @@ REFERENCE = '[[references]]\nquantity = "displacement"\nnode = "P"\ndof = "dz"\n
         (
             REFERENCE + "times = [0.5]\nvalues = [1]",
             "references.0.tolerance: give either tolerance or absolute_tolerance",
+        ),
+        (
+            REFERENCE + "times = [0.5]\nvalues = [1]\ntolerance = 1\nrelative_tolerance = 2",
+            "references.0.relative_tolerance: is the same as tolerance (got 2.0); give one",
         ),
         (
             REFERENCE + "times = [0.5]\nvalues = [0]\ntolerance = 1",

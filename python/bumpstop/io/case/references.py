@@ -73,9 +73,19 @@ def _reference(table: ReferenceTable, basis: ModalBasis, problem: Problem | None
     return replace(
         target,
         values=[_in_si(f"values.{i}", value, target) for i, value in enumerate(table.values)],
-        tolerance=table.tolerance,
+        tolerance=_relative(table),
         absolute_tolerance=_absolute(table, target),
     )
+
+
+def _relative(table: ReferenceTable) -> float | None:
+    if table.tolerance is None:
+        return table.relative_tolerance
+    if table.relative_tolerance is not None:
+        what = "is the same as tolerance"
+        value = table.relative_tolerance
+        raise InputError(what, key="relative_tolerance", value=value, hint="give one of them")
+    return table.tolerance
 
 
 def _absolute(table: ReferenceTable, target: Reference) -> float | None:

@@ -37,6 +37,9 @@ class ReferenceTable(Table):
     tolerance: PositiveNumber | None = Field(
         default=None, description="Largest deviation, relative to each value"
     )
+    relative_tolerance: PositiveNumber | None = Field(
+        default=None, description="The same as tolerance, by its full name"
+    )
     absolute_tolerance: Written | None = Field(
         default=None, description="Largest deviation, in the unit of the values"
     )
