@@ -199,6 +199,38 @@ class TestOscillator:
         assert response.events["law"].tolist()[:4] == ["left", "left", "right", "right"]
 
 
+class TestLedger:
+    def test_modal_damping_takes_what_a_free_vibration_loses(self) -> None:
+        """x = v/w_d exp(-xi w t) sin(w_d t), for a mass of 1 kg far from its stop."""
+        basis = bs.ModalBasis.from_modes(frequency=[3.0], damping=0.05, shapes={("P", "dx"): [1]})
+        wall = bs.Stop("wall", node="P", normal=(1, 0, 0), gap=1.0, stiffness=1e5)
+        start = bs.ModalState(velocity=[0.5])
+        problem = bs.Problem(basis, laws=[wall], initial=start, duration=1.0)
+        omega, ratio, times = 2.0 * math.pi * 3.0, 0.05, np.linspace(0.0, 1.0, 23)
+        swing = omega * math.sqrt(1.0 - ratio**2)
+        shrunk, angle = np.exp(-ratio * omega * times), swing * times
+        place = 0.5 / swing * shrunk * np.sin(angle)
+        speed = 0.5 * shrunk * (np.cos(angle) - ratio * omega / swing * np.sin(angle))
+        kinetic, elastic = 0.5 * speed**2, 0.5 * omega**2 * place**2
+        energy = bs.simulate(problem, method="exact").energy_terms(times)
+        np.testing.assert_allclose(energy["kinetic"], kinetic, atol=1e-14)
+        np.testing.assert_allclose(energy["elastic"], elastic, atol=1e-14)
+        lost = 0.125 - kinetic - elastic
+        np.testing.assert_allclose(energy["dissipated_damping"], lost, atol=1e-14)
+
+    @pytest.mark.parametrize("method", ["symplectic_euler", "central_difference"])
+    def test_the_residual_is_what_the_terms_miss(self, method: str) -> None:
+        """Coarse steps miss some: the terms are integrated from their own powers."""
+        response = bs.simulate(ball(duration=0.2), method=method, dt=1e-3)
+        energy = response.energy_terms()
+        present = sum(energy[name] for name in ("kinetic", "elastic", "stored"))
+        lost = energy["dissipated_damping"] + energy["dissipated_stops"]
+        missed = present + lost - energy["total_initial"] - energy["load_work"]
+        largest = energy["load_work"].max()
+        np.testing.assert_allclose(energy["residual"], missed, atol=1e-13 * largest)
+        assert np.abs(energy["residual"]).max() > 1e-5 * largest
+
+
 class TestLabels:
     def test_displacement(self, bounce: bs.Response) -> None:
         array = bounce.displacement("ball", "dy")
@@ -230,6 +262,10 @@ class TestLabels:
         assert array["mode"].values.tolist() == [1]
         assert array["frequency"].attrs["units"] == "Hz"
         np.testing.assert_array_equal(array.sel(mode=1), bounce.sample("modal_displacement", 1))
+        for one in (np.int64(1), np.uint8(1)):
+            np.testing.assert_array_equal(
+                array.sel(mode=1), bounce.sample("modal_displacement", one)
+            )
 
     def test_energy_is_a_dataset(self, bounce: bs.Response) -> None:
         energy = bounce.energy
@@ -296,6 +332,8 @@ class TestSampling:
             ("gauge", ("g",), "none are defined"),
             ("modal_displacement", (2,), "a mode from 1 to 1"),
             ("modal_displacement", (0,), "a mode from 1 to 1"),
+            ("modal_displacement", (True,), "a mode from 1 to 1"),
+            ("modal_displacement", (1.0,), "a mode from 1 to 1"),
         ],
     )
     def test_what_cannot_be_asked_for(

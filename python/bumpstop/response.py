@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
+from numbers import Integral
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -369,9 +370,11 @@ class Response:
 
     def _mode_index(self, mode: str | int) -> int:
         modes = len(self.problem.basis.labels)
-        if not isinstance(mode, int) or not 1 <= mode <= modes:
+        # numpy counts in integers of its own; True is no number of a mode.
+        whole = isinstance(mode, Integral) and not isinstance(mode, bool)
+        if not whole or not 1 <= int(mode) <= modes:
             raise InputError(f"must be a mode from 1 to {modes}", key="mode", value=mode)
-        return mode - 1
+        return int(mode) - 1
 
     def _nodal(self, quantity: str, node: str, dof: str) -> xr.DataArray:
         return over_time(

@@ -306,6 +306,18 @@ def test_what_could_not_be_computed_is_status_3(
     assert not (tmp_path / "out").exists()
 
 
+def test_memory_that_does_not_suffice_is_status_3(
+    call: Output, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def ask_for_too_much(*_arguments: object, **_options: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("bumpstop.cli.solve.simulate", ask_for_too_much)
+    status, output, error = call(*RUN)
+    assert (status, output) == (3, "")
+    assert error == "error: not enough memory; take fewer samples, elements or modes\n"
+
+
 def test_numbers_that_overflow_are_status_3(call: Output, tmp_path: Path) -> None:
     file = tmp_path / "case.toml"
     file.write_text(SDNL32.read_text().replace("damping = 0.01 ", "damping = 1e308 "))

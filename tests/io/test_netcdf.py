@@ -22,7 +22,10 @@ def thrown_beam() -> bs.Response:
         initial=SWING,
         duration=0.02,
         sample=1e-4,
-        gauges=[bs.Gauge("strain", beam="AB", at=0.462, fibre=(0.0, 0.007))],
+        gauges=[
+            bs.Gauge("strain", beam="AB", at=0.462, fibre=(0.007, 0.0)),
+            bs.Gauge("below", beam="AB", at=0.2, fibre=(-0.007, 0.0)),
+        ],
         outputs=[("AB@0.462 m", "drz")],
     )
     return bs.simulate(problem, method="central_difference", dt=1e-5)
@@ -44,9 +47,15 @@ def test_xarray_finds_values_and_units(path: Path, thrown_beam: bs.Response) -> 
         force = file["stop_force"].sel(stop="spring")
         np.testing.assert_array_equal(force, thrown_beam.sample("stop_force", "spring"))
         assert force.attrs["units"] == "N"
-        strain = file["strain"].sel(gauge="strain")
-        np.testing.assert_array_equal(strain, thrown_beam.sample("gauge", "strain"))
-        assert strain.attrs["units"] == "1"
+        gap = file["gap"].sel(stop="spring")
+        np.testing.assert_array_equal(gap, thrown_beam.sample("gap", "spring"))
+        np.testing.assert_allclose(gap, tip, atol=1e-15)  # the normal is +y, without clearance
+        assert gap.attrs["units"] == "m"
+        for gauge in ("strain", "below"):
+            strain = file["strain"].sel(gauge=gauge)
+            np.testing.assert_array_equal(strain, thrown_beam.sample("gauge", gauge))
+            assert np.abs(strain).max() > 1e-5
+            assert strain.attrs["units"] == "1"
         np.testing.assert_array_equal(file["modal_velocity"], thrown_beam.motion(1))
         np.testing.assert_array_equal(file["mode"], [1, 2, 3])
 
@@ -101,6 +110,7 @@ def test_the_file_says_where_it_comes_from(path: Path, thrown_beam: bs.Response)
     assert told["Conventions"] == "CF-1.11"
     assert (told["title"], told["case"], told["variant"]) == ("A beam", "sdnl32", "soft")
     assert told["bumpstop_version"] == bs.__version__
+    assert told["source"] == f"bumpstop {bs.__version__}"
     assert (told["method"], told["method_dt"]) == ("central_difference", 1e-5)
     assert told["steps"] == 2000
     assert "missed_penetration" not in told
