@@ -25,7 +25,19 @@ if TYPE_CHECKING:
 __all__ = ["write_modes", "write_report"]
 
 TEMPLATES = Path(__file__).parent / "templates"
-SCRIPTS = ("data", "theme", "plots", "tabs", "svg", "stage", "motion", "turntable", "modes", "main")
+SCRIPTS = (
+    "data",
+    "paper",
+    "theme",
+    "plots",
+    "tabs",
+    "svg",
+    "stage",
+    "motion",
+    "turntable",
+    "modes",
+    "main",
+)
 PLOTLY_MARK = "<!--plotly.js-->"
 
 

@@ -158,7 +158,7 @@ class Motion {
   }
 
   layOut() {
-    const width = this.stage.element.parentElement.clientWidth;
+    const width = roomWithin(this.stage.element.parentElement);
     if (width === 0) return;
     this.stage.fit(width, this.scene.lines.length ? 400 : 320);
     this.drawStage();
@@ -304,7 +304,7 @@ class Motion {
 
   drawStrip() {
     const { strip, scene } = this;
-    const width = this.strip.parentElement.clientWidth;
+    const width = roomWithin(this.strip.parentElement);
     const { values } = scene.watched;
     const inner = width - THUMB;
     let [low, high] = [0, 0];
@@ -317,7 +317,7 @@ class Motion {
     this.stripX = x;
     this.stripY = y;
     strip.replaceChildren();
-    set(strip, { width, height: this.stripHeight });
+    setSize(strip, width, this.stripHeight);
     for (const [start, end] of this.closedSpans()) {
       const [left, right] = [start, end].map((time) => x((this.last * time) / this.duration));
       const band = { x: left, width: Math.max(right - left, 1), y: 0, height: this.stripHeight };

@@ -1,7 +1,5 @@
 // The plotly figures: drawn when they come into view, in the colours and width of the moment.
 
-// A4 between its margins, in CSS pixels: what a printed page has room for.
-const PAPER_WIDTH = 660;
 const PAPER_GUTTER = 24;
 
 const plotConfig = {

@@ -62,7 +62,7 @@ class Stage {
       pad.left + (width - pad.left - pad.right) / 2 - ((box[0] + box[1]) / 2) * this.scale,
       pad.top + (this.height - pad.top - pad.bottom) / 2 + ((box[2] + box[3]) / 2) * this.scale,
     ];
-    set(this.element, { width: this.width, height: this.height });
+    setSize(this.element, this.width, this.height);
     this.element.dataset.scale = String(this.scale * this.magnification);
   }
 

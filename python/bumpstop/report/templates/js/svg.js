@@ -13,6 +13,11 @@ function set(element, attributes) {
   }
 }
 
+// A size in pixels that shrinks as a whole where there is less room than that.
+function setSize(element, width, height) {
+  set(element, { width, height, viewBox: `0 0 ${width} ${height}` });
+}
+
 function pathThrough(points) {
   return points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`).join("");
 }

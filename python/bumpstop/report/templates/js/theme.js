@@ -1,12 +1,6 @@
 // Light or dark, as the reader's system says; always light on paper.
 
 const darkScreen = window.matchMedia("(prefers-color-scheme: dark)");
-const paper = window.matchMedia("print");
-let printing = false;
-
-function isPrinting() {
-  return printing || paper.matches;
-}
 
 // Figures come in the colours of light paper; swap each for that of the theme in use.
 function recoloured(figure, themes) {
