@@ -1,44 +1,22 @@
 //! The certified walk: from the start of a phase to the first instant at which a guard reaches
-//! zero, by steps on which the jets prove that none does.
+//! zero, by cells on which the jets prove that none does, eight at once.
 
-use super::jet::Verdict;
+use super::bracket::{Bracket, Probe};
+use super::cells::{Cells, Moved, Seen};
+use super::jet::{Jet, Verdict};
 use super::phase::{Phase, Phases};
 use super::rows::{ComplexBlock, RealBlock};
 use super::signal::{Instant, Signal};
 use super::spectrum::Spectrum;
-use super::tables::{CELLS_BETWEEN_ANCHORS, Level, Tables};
-use crate::number::{Instructions, Lanes, Number};
+use super::tables::{CELLS, Tables};
+use crate::number::{Instructions, Lanes, Number, Plain};
 
 /// The smallest cell, relative to the time since the start of the phase (or to the typical
 /// period where that is longer): below it nothing can be told from rounding.
 const SMALLEST_CELL: f64 = 1e-13;
 
-/// Most iterations when a bracketed zero is refined; bisection alone needs about sixty.
-const REFINEMENTS: usize = 100;
-
-/// A Halley step below this part of its bracket is the last.
-const SMALL_STEP: f64 = 2e-6;
-
-/// Where a zero is, and a guess of it.
-#[derive(Debug, Clone, Copy)]
-struct Bracket {
-    left: f64,
-    right: f64,
-    guess: f64,
-}
-
-impl Bracket {
-    /// The guess is used where it lies inside.
-    #[inline(always)]
-    fn new(left: f64, right: f64, guess: f64) -> Self {
-        let inside = guess > left && guess < right;
-        Self {
-            left,
-            right,
-            guess: if inside { guess } else { 0.5 * (left + right) },
-        }
-    }
-}
+/// The first cells are so wide that a typical frequency of the guard turns by this angle.
+const FIRST_TURN: f64 = 1.0;
 
 /// A guard that is watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,11 +57,11 @@ pub(crate) struct Walk {
     tables: Tables,
     /// The shortest typical time of the present phase.
     period: f64,
+    /// Exponentials at the left end of the first cell, and their moduli.
     left: Vec<ComplexBlock>,
     sizes: Vec<RealBlock>,
-    bound: Vec<RealBlock>,
-    middle: Vec<ComplexBlock>,
-    right: Vec<ComplexBlock>,
+    moved: Vec<Moved>,
+    seen: Vec<Seen>,
     probe: Vec<ComplexBlock>,
 }
 
@@ -113,11 +91,46 @@ impl Path<'_> {
     }
 }
 
-/// What a cell came to.
+/// A stretch of time on which a guard's jet is known.
+#[derive(Clone, Copy)]
+struct Cell {
+    left: f64,
+    width: f64,
+    level: usize,
+}
+
+impl Cell {
+    #[inline(always)]
+    fn bracket(&self, guess: f64) -> Bracket {
+        let radius = 0.5 * self.width;
+        Bracket::new(
+            self.left,
+            self.left + self.width,
+            self.left + radius + guess,
+        )
+    }
+}
+
+/// What some cells, or one of them, came to.
 enum Outcome {
     Clear,
     Found(Crossing),
-    Halve,
+    /// Nothing is proved on the cell of this number: smaller ones are needed from there on.
+    Halve(usize),
+}
+
+/// What is seen of one guard on one cell.
+enum Sight {
+    /// It stays positive.
+    Clear,
+    /// It is negative as soon as the path begins.
+    AtOnce,
+    /// It has a zero there.
+    Crosses(Bracket),
+    /// It has one there if it is negative at the right end.
+    EndDecides(Bracket),
+    /// Nothing is proved.
+    Unclear,
 }
 
 impl Walk {
@@ -133,57 +146,40 @@ impl Walk {
         path: Path<'_>,
         certificate: &mut Certificate,
     ) -> Option<Crossing> {
-        let spectrum = path.spectrum();
         let mut level = self.prepare::<I>(&path);
         let mut time = path.from;
-        let mut since_anchor = 0;
-        let mut successes = 0;
         while time < path.limit {
-            (self.tables).fill::<I>(path.phase.spectrum, spectrum, level);
             let width = self.tables.width(level);
-            certificate.cells += 1;
-            match self.judge::<I>(&path, time, level, certificate) {
+            self.look::<I>(&path, time, level, certificate);
+            match self.judge::<I>(&path, time, level) {
                 Outcome::Clear => {
-                    time += width;
-                    since_anchor += 1;
-                    std::mem::swap(&mut self.left, &mut self.right);
-                    self.grow::<I>(&path, level);
-                    if since_anchor == CELLS_BETWEEN_ANCHORS {
-                        self.anchor::<I>(spectrum, time);
-                        since_anchor = 0;
-                    }
-                    successes += 1;
-                    if successes >= 2 && level > 0 {
-                        level -= 1;
-                        successes = 0;
-                    }
+                    time += CELLS as f64 * width;
+                    certificate.cells += CELLS;
+                    level = level.saturating_sub(1);
                 }
                 Outcome::Found(crossing) => {
                     return (crossing.time < path.limit).then_some(crossing);
                 }
-                Outcome::Halve => {
+                Outcome::Halve(cell) => {
+                    time += cell as f64 * width;
+                    certificate.cells += cell + 1;
                     level += 1;
-                    successes = 0;
                 }
+            }
+            if time > path.from {
+                self.anchor::<I>(path.spectrum(), time);
             }
         }
         None
     }
 
-    /// Sets the tables for a phase; returns the first level.
+    /// Stands at the start of a path; returns the first level.
     #[inline(always)]
     fn prepare<I: Instructions>(&mut self, path: &Path<'_>) -> usize {
         let spectrum = path.spectrum();
         let blocks = spectrum.lambda.len();
-        for rows in [
-            &mut self.left,
-            &mut self.middle,
-            &mut self.right,
-            &mut self.probe,
-        ] {
-            rows.resize(blocks, ComplexBlock::ONE);
-        }
-        self.bound.resize(blocks, RealBlock::ONE);
+        self.left.resize(blocks, ComplexBlock::ONE);
+        self.probe.resize(blocks, ComplexBlock::ONE);
         self.sizes.resize(blocks, RealBlock::ONE);
         if path.from > 0.0 {
             self.anchor::<I>(spectrum, path.from);
@@ -197,19 +193,10 @@ impl Walk {
             pace = pace.max(signal.pace(spectrum));
         }
         let mut level = 0;
-        while self.tables.width(level) * pace > 2.0 && level < 1000 {
+        while self.tables.width(level) * pace > FIRST_TURN && level < 1000 {
             level += 1;
         }
         level
-    }
-
-    /// Carries the sizes over a cell.
-    #[inline(always)]
-    fn grow<I: Instructions>(&mut self, path: &Path<'_>, level: usize) {
-        let growth = &self.tables.level(path.phase.spectrum, level).growth;
-        for (size, growth) in self.sizes.iter_mut().zip(growth) {
-            size.put(size.lanes::<I>() * growth.lanes());
-        }
     }
 
     #[inline(always)]
@@ -223,128 +210,192 @@ impl Walk {
         }
     }
 
-    /// Looks at the cell of the given level that starts at `time`.
+    /// Looks at all guards on the cells of the given level from `time` on.
     #[inline(always)]
-    fn judge<I: Instructions>(
+    fn look<I: Instructions>(
         &mut self,
         path: &Path<'_>,
         time: f64,
         level: usize,
         certificate: &mut Certificate,
-    ) -> Outcome {
-        let spectrum = path.spectrum();
-        let width = self.tables.width(level);
-        let Level {
-            half,
-            whole,
-            growth,
-            ..
-        } = self.tables.level(path.phase.spectrum, level);
-        for b in 0..spectrum.lambda.len() {
-            let left = self.left[b].lanes::<I>();
-            self.middle[b].put(left * half[b].lanes());
-            self.right[b].put(left * whole[b].lanes());
-            let growth = growth[b].lanes::<I>().max(Lanes::of(1.0));
-            self.bound[b].put(self.sizes[b].lanes() * growth);
+    ) {
+        let level = (self.tables).level::<I>(path.phase.spectrum, path.spectrum(), level);
+        let cells = Cells {
+            time,
+            limit: path.limit,
+            left: &self.left,
+            sizes: &self.sizes,
+            level,
+        };
+        self.seen.clear();
+        for (watched, signal) in path.signals.iter().enumerate() {
+            let mut seen = cells.look::<I>(signal, path.phases, path.phase, &mut self.moved);
+            certificate.missed = certificate.missed.max(seen.jets.rounding);
+            if path.departs(watched, time) {
+                // The first cell has a verdict of its own.
+                seen.clear &= !1;
+            }
+            self.seen.push(seen);
         }
-        let smallest = SMALLEST_CELL * (time + width).max(self.period);
+    }
+
+    /// Goes through the cells on which some guard is not clear.
+    #[inline(always)]
+    fn judge<I: Instructions>(&mut self, path: &Path<'_>, time: f64, level: usize) -> Outcome {
+        let width = self.tables.width(level);
+        let mut open = self.seen.iter().fold(0, |open, seen| open | !seen.clear);
+        while open != 0 {
+            let number = open.trailing_zeros() as usize;
+            open &= open - 1;
+            let cell = Cell {
+                left: time + number as f64 * width,
+                width,
+                level,
+            };
+            if cell.left >= path.limit {
+                return Outcome::Clear;
+            }
+            match self.judge_cell::<I>(path, cell, number) {
+                Outcome::Clear => {}
+                outcome => return outcome,
+            }
+        }
+        Outcome::Clear
+    }
+
+    /// The first zero on a cell that is not clear.
+    #[inline(always)]
+    fn judge_cell<I: Instructions>(
+        &mut self,
+        path: &Path<'_>,
+        cell: Cell,
+        number: usize,
+    ) -> Outcome {
+        let smallest = SMALLEST_CELL * (cell.left + cell.width).max(self.period);
         let mut first: Option<Crossing> = None;
         for watched in 0..path.signals.len() {
-            let middle = time + 0.5 * width;
-            let bracket = match self.look::<I>(path, watched, time, width, certificate) {
-                Sight::Clear => None,
-                Sight::AtOnce => return Outcome::Found(Crossing { watched, time }),
-                Sight::Unclear if width >= smallest => return Outcome::Halve,
-                // A departure that cannot be told from rounding is taken as one.
-                Sight::Unclear if path.departs(watched, time) => None,
-                Sight::Unclear => Some(Bracket::new(time, time + width, middle)),
-                Sight::End(guess) => Some(Bracket::new(time, time + width, middle + guess)),
-                Sight::Valley { curvature, guess } => {
-                    let bracket = Bracket::new(time, time + width, middle + guess);
-                    self.valley::<I>(path, watched, bracket, curvature)
-                }
+            let departs = path.departs(watched, cell.left);
+            let sight = if self.seen[watched].clear >> number & 1 == 1 {
+                Sight::Clear
+            } else if departs {
+                self.depart::<I>(path, watched, cell)
+            } else {
+                self.examine::<I>(path, watched, cell, number)
             };
-            if let Some(bracket) = bracket
-                && (bracket.right < time + width
-                    || self.ends_below::<I>(path, watched, bracket.right))
-            {
-                let time = self.refine::<I>(path, watched, bracket);
-                if first.is_none_or(|f| time < f.time) {
-                    first = Some(Crossing { watched, time });
+            let (bracket, crosses) = match sight {
+                Sight::Clear => continue,
+                Sight::AtOnce => {
+                    return Outcome::Found(Crossing {
+                        watched,
+                        time: cell.left,
+                    });
                 }
+                Sight::Crosses(bracket) => (bracket, true),
+                Sight::EndDecides(bracket) => (bracket, false),
+                Sight::Unclear if cell.width >= smallest => return Outcome::Halve(number),
+                // A departure that cannot be told from rounding is taken as one.
+                Sight::Unclear if departs => continue,
+                Sight::Unclear => (cell.bracket(0.0), false),
+            };
+            let probe = &mut self.probe(path, watched);
+            if !crosses && probe.values::<I>(bracket.right)[0] > 0.0 {
+                continue;
+            }
+            let time = bracket.refine::<I>(probe);
+            if first.is_none_or(|f| time < f.time) {
+                first = Some(Crossing { watched, time });
             }
         }
         first.map_or(Outcome::Clear, Outcome::Found)
     }
 
-    /// What the jet of one guard says of a cell.
+    /// What one guard does on a cell on which it is not clear.
     #[inline(always)]
-    fn look<I: Instructions>(
+    fn examine<I: Instructions>(
         &mut self,
         path: &Path<'_>,
         watched: usize,
-        time: f64,
-        width: f64,
-        certificate: &mut Certificate,
+        cell: Cell,
+        number: usize,
     ) -> Sight {
-        let signal = &path.signals[watched];
-        if path.departs(watched, time) {
-            return match path.starts[watched] {
-                Start::Below => Sight::AtOnce,
-                Start::Tangent => self.depart_tangent::<I>(path, signal, time, width),
-                Start::Zero(known) => self.depart::<I>(path, signal, known, time, width),
-                Start::Positive => Sight::Unclear,
-            };
-        }
-        let radius = 0.5 * width;
-        let at = Instant {
-            time: time + radius,
-            exponentials: &self.middle,
-        };
-        let (phases, phase) = (path.phases, path.phase);
-        let jet = signal.jet::<I>(phases, phase, &at, &self.bound, radius);
-        certificate.missed = certificate.missed.max(jet.rounding);
-        match jet.verdict(radius) {
-            Verdict::Clear => Sight::Clear,
-            Verdict::EndDecides => Sight::End(jet.descent()),
-            Verdict::Convex(curvature) => Sight::Valley {
-                curvature,
-                guess: jet.descent(),
-            },
+        let jet = self.seen[watched].jets.cell(number);
+        let bracket = cell.bracket(jet.descent());
+        match jet.verdict(0.5 * cell.width) {
+            Verdict::Crosses => Sight::Crosses(bracket),
+            Verdict::EndDecides => Sight::EndDecides(bracket),
+            Verdict::Convex(curvature) => {
+                match bracket.valley::<I>(&mut self.probe(path, watched), curvature) {
+                    None => Sight::Clear,
+                    Some(before) if before.right < bracket.right => Sight::Crosses(before),
+                    Some(after) => Sight::EndDecides(after),
+                }
+            }
             Verdict::Open => Sight::Unclear,
+        }
+    }
+
+    #[inline(always)]
+    fn probe<'a>(&'a mut self, path: &Path<'a>, watched: usize) -> Probe<'a> {
+        Probe {
+            phases: path.phases,
+            phase: path.phase,
+            signal: &path.signals[watched],
+            exponentials: &mut self.probe,
+        }
+    }
+
+    /// The first cell of a guard that does not start positive.
+    #[inline(always)]
+    fn depart<I: Instructions>(&mut self, path: &Path<'_>, watched: usize, cell: Cell) -> Sight {
+        match path.starts[watched] {
+            Start::Positive => Sight::Unclear,
+            Start::Below => Sight::AtOnce,
+            Start::Tangent => self.depart_tangent(path, watched, cell),
+            Start::Zero(known) => {
+                let (signal, seen) = (&path.signals[watched], &self.seen[watched]);
+                self.depart_from_zero::<I>(path, signal, seen, known, cell)
+            }
         }
     }
 
     /// The first cell of a guard that starts at zero, with slope and curvature where known.
     #[inline(always)]
-    fn depart<I: Instructions>(
-        &mut self,
+    fn depart_from_zero<I: Instructions>(
+        &self,
         path: &Path<'_>,
         signal: &Signal,
+        seen: &Seen,
         known: Option<[f64; 2]>,
-        time: f64,
-        width: f64,
+        cell: Cell,
     ) -> Sight {
-        let at = Instant {
-            time,
-            exponentials: &self.left,
-        };
-        let mut jet = signal.jet::<I>(path.phases, path.phase, &at, &self.bound, width);
-        let full = if time == 0.0 {
-            signal.values_at_start(path.phases, path.phase)
-        } else {
-            signal.values::<I>(path.phases, path.phase, &at)
-        };
+        let (phases, phase) = (path.phases, path.phase);
         let [slope, curvature] = known.unwrap_or_else(|| {
-            let noise = signal.rate_rounding(path.phases, path.phase);
-            let beyond = |value: f64, noise: f64| if value.abs() > noise { value } else { 0.0 };
-            [beyond(full[1], noise[0]), beyond(full[2], noise[1])]
+            let [_, slope, curvature] = if cell.left == 0.0 {
+                signal.values_at_start(phases, phase)
+            } else {
+                let at = Instant {
+                    time: cell.left,
+                    exponentials: &self.left,
+                };
+                signal.values::<Plain>(phases, phase, &at)
+            };
+            let noise = signal.rate_rounding(phases, phase);
+            let beyond = |rate: f64, noise: f64| if rate.abs() > noise { rate } else { 0.0 };
+            [beyond(slope, noise[0]), beyond(curvature, noise[1])]
         });
-        jet.slope = slope;
-        if jet.slope < 0.0 || (jet.slope == 0.0 && curvature < 0.0) {
+        if slope < 0.0 || (slope == 0.0 && curvature < 0.0) {
             return Sight::AtOnce;
         }
-        if jet.departs(width) {
+        let mut jet = Jet {
+            value: 0.0,
+            slope,
+            curvature: seen.first_curvature,
+            third: seen.jets.third,
+            rest: seen.jets.rest,
+            rounding: seen.jets.rounding,
+        };
+        signal.add_clusters_after(phases, phase, cell.left, cell.width, &mut jet);
+        if jet.departs(cell.width) {
             Sight::Clear
         } else {
             Sight::Unclear
@@ -352,131 +403,21 @@ impl Walk {
     }
 
     /// The first cell of a guard that starts at zero with its first two derivatives: it stays
-    /// positive where its second derivative does.
+    /// positive where its second derivative does. Rare, so that plain arithmetic, which gives the
+    /// same bits, does.
     #[cold]
-    fn depart_tangent<I: Instructions>(
-        &mut self,
-        path: &Path<'_>,
-        signal: &Signal,
-        time: f64,
-        width: f64,
-    ) -> Sight {
-        let rate = signal.derivative(path.phases, path.phase);
-        let second = rate.derivative(path.phases, path.phase);
-        self.depart::<I>(path, &second, None, time, width)
-    }
-
-    /// Whether a guard is negative at the right end of the cell.
-    #[inline(always)]
-    fn ends_below<I: Instructions>(&self, path: &Path<'_>, watched: usize, right: f64) -> bool {
-        let at = Instant {
-            time: right,
-            exponentials: &self.right,
+    fn depart_tangent(&mut self, path: &Path<'_>, watched: usize, cell: Cell) -> Sight {
+        let (phases, phase) = (path.phases, path.phase);
+        let rate = path.signals[watched].derivative(phases, phase);
+        let second = rate.derivative(phases, phase);
+        let cells = Cells {
+            time: cell.left,
+            limit: path.limit,
+            left: &self.left,
+            sizes: &self.sizes,
+            level: (self.tables).level::<Plain>(phase.spectrum, path.spectrum(), cell.level),
         };
-        path.signals[watched].value::<I>(path.phases, path.phase, &at) <= 0.0
+        let seen = cells.look::<Plain>(&second, phases, phase, &mut self.moved);
+        self.depart_from_zero::<Plain>(path, &second, &seen, None, cell)
     }
-
-    /// Looks for the least value of a convex guard. A negative one ends a bracket; one that is
-    /// zero to rounding is a touch, after which the right end of the cell decides.
-    #[inline(always)]
-    fn valley<I: Instructions>(
-        &mut self,
-        path: &Path<'_>,
-        watched: usize,
-        bracket: Bracket,
-        curvature: f64,
-    ) -> Option<Bracket> {
-        let signal = &path.signals[watched];
-        let rounding = signal.rounding(bracket.right);
-        let (mut low, mut high) = (bracket.left, bracket.right);
-        let mut t = 0.5 * (low + high);
-        for _ in 0..REFINEMENTS {
-            let values = self.probe::<I>(path, signal, t);
-            // A convex function lies above every such parabola.
-            let least = values[0] - 0.5 * values[1] * values[1] / curvature;
-            if least > rounding {
-                return None;
-            }
-            if values[0] < -rounding {
-                return Some(Bracket::new(bracket.left, t, bracket.guess));
-            }
-            if values[1] > 0.0 {
-                high = t;
-            } else {
-                low = t;
-            }
-            let newton = t - values[1] / values[2];
-            let inside = newton > low && newton < high;
-            let next = if inside { newton } else { 0.5 * (low + high) };
-            if (next - t).abs() <= 4.0 * f64::EPSILON * t || next == t {
-                break;
-            }
-            t = next;
-        }
-        Some(Bracket::new(low, bracket.right, bracket.guess))
-    }
-
-    /// Value and derivatives at any time.
-    #[inline(always)]
-    fn probe<I: Instructions>(&mut self, path: &Path<'_>, signal: &Signal, t: f64) -> [f64; 3] {
-        let spectrum = path.spectrum();
-        spectrum.exponentials::<I>(t, &mut self.probe);
-        let at = Instant {
-            time: t,
-            exponentials: &self.probe,
-        };
-        signal.values::<I>(path.phases, path.phase, &at)
-    }
-
-    /// The zero between a positive left and a negative right end, by Halley's method kept
-    /// inside the bracket.
-    #[inline(always)]
-    fn refine<I: Instructions>(
-        &mut self,
-        path: &Path<'_>,
-        watched: usize,
-        bracket: Bracket,
-    ) -> f64 {
-        let signal = &path.signals[watched];
-        let (mut low, mut high) = (bracket.left, bracket.right);
-        let mut t = bracket.guess;
-        for _ in 0..REFINEMENTS {
-            let [value, slope, curvature] = self.probe::<I>(path, signal, t);
-            if value > 0.0 {
-                low = t;
-            } else {
-                high = t;
-            }
-            let newton = value / slope;
-            let halley = t - newton / (1.0 - 0.5 * newton * curvature / slope);
-            let next = if halley > low && halley < high {
-                halley
-            } else {
-                0.5 * (low + high)
-            };
-            let step = (next - t).abs();
-            t = next;
-            // The error after a Halley step goes with the cube of the step.
-            if step < SMALL_STEP * (bracket.right - bracket.left) && halley == next
-                || high - low <= 2.0 * f64::EPSILON * t
-            {
-                break;
-            }
-        }
-        t
-    }
-}
-
-/// What is seen of one guard on one cell.
-enum Sight {
-    /// It stays positive.
-    Clear,
-    /// It is negative as soon as the path begins.
-    AtOnce,
-    /// At most one zero; the right end tells. With a guess of it, from the middle.
-    End(f64),
-    /// Convex, with at least this curvature; with a guess of the first zero.
-    Valley { curvature: f64, guess: f64 },
-    /// Nothing is proved.
-    Unclear,
 }

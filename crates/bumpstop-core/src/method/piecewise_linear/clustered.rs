@@ -1,10 +1,11 @@
 //! The part of a signal that clusters have in it.
 
 use super::cluster::{Cluster, Columns, NOTHING};
-use super::jet::Jet;
+use super::jet::{Jet, Jets};
 use super::phase::{Phase, Phases};
 use super::quadrature::integral;
 use super::spectrum::Spectrum;
+use super::tables::CELLS;
 use super::view::View;
 use crate::law::{Affine, COORDINATES};
 use crate::number::{Complex, Number};
@@ -168,6 +169,38 @@ impl Clustered {
         }
     }
 
+    /// Adds the parts to jets on consecutive cells of the given width from a time on.
+    #[cold]
+    pub(crate) fn add_to_jets(
+        &self,
+        phases: &Phases,
+        phase: Phase,
+        time: f64,
+        width: f64,
+        jets: &mut Jets,
+    ) {
+        let mut largest = Jet::default();
+        for cell in 0..CELLS {
+            let mut jet = Jet::default();
+            let middle = time + (cell as f64 + 0.5) * width;
+            self.add_to_jet(phases, phase, middle, 0.5 * width, &mut jet);
+            jets.values[cell] += jet.value;
+            jets.slopes[cell] += jet.slope;
+            jets.curvatures[cell] += jet.curvature;
+            largest.third = largest.third.max(jet.third);
+            largest.rounding = largest.rounding.max(jet.rounding);
+            for (largest, rest) in largest.rest.iter_mut().zip(jet.rest) {
+                *largest = largest.max(rest);
+            }
+        }
+        jets.third += largest.third;
+        jets.rounding += largest.rounding;
+        for (rest, largest) in jets.rest.iter_mut().zip(largest.rest) {
+            *rest += largest;
+        }
+    }
+
+    #[inline(always)]
     pub(crate) fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }

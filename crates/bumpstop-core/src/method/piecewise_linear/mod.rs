@@ -3,10 +3,12 @@
 //! While no law switches, a problem whose laws are piecewise linear is a linear system with
 //! constant coefficients. [`spectrum`] solves its eigenproblem, [`phase`] keeps the amplitudes of
 //! one stretch of time, [`signal`] turns a law's guard into a sum of exponentials, [`jet`] judges
-//! it on a cell of time, [`advance`] walks such cells to the next zero, and [`event`] switches.
-//! The only approximation is rounding.
+//! it on [`cells`] of time, [`advance`] walks these to the next zero, [`bracket`] finds it, and
+//! [`event`] switches. The only approximation is rounding.
 
 mod advance;
+mod bracket;
+mod cells;
 mod cluster;
 mod clustered;
 mod coupled;
@@ -38,7 +40,7 @@ mod view;
 mod works;
 
 pub use enclosure::Enclosure;
-pub use jet::{Jet, Verdict};
+pub use jet::{Jet, Jets, Verdict};
 pub use record::PhaseRecord;
 
 use super::{Observer, observe};

@@ -1,5 +1,7 @@
 //! The polynomial part of a signal.
 
+use crate::number::{Instructions, Lanes, Number};
+
 /// `sum c_n t^n`, t since the start of the phase. Mostly of degree two at most.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Polynomial {
@@ -56,6 +58,26 @@ impl Polynomial {
         if !long.is_empty() {
             add_long_part(long, t, values);
         }
+    }
+
+    /// Whether it is of degree two at most.
+    #[inline(always)]
+    pub(crate) fn is_short(&self) -> bool {
+        self.coefficients.len() == 3
+    }
+
+    /// Values, slopes and curvatures of the part of degree two at eight times.
+    #[inline(always)]
+    pub(crate) fn short_over<I: Instructions>(&self, times: Lanes<I>) -> [Lanes<I>; 3] {
+        let (c, _) = self.parts();
+        let (constant, slope) = (Lanes::of(c[0]), Lanes::of(c[1]));
+        let bend = Lanes::<I>::of(c[2]);
+        let twice = bend + bend;
+        [
+            bend.mul_add(times, slope).mul_add(times, constant),
+            twice.mul_add(times, slope),
+            twice,
+        ]
     }
 
     /// `sum |c_n| t^n`

@@ -3,33 +3,30 @@
 mod loads;
 
 use super::clustered::Clustered;
-use super::jet::Jet;
+use super::jet::{Jet, Jets};
 use super::phase::{Phase, Phases};
 use super::polynomial::Polynomial;
 use super::product::{Factor, Other, grown};
 use super::resonance::Resonant;
 use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
 use super::spectrum::Spectrum;
-use super::tables::CELLS_BETWEEN_ANCHORS;
+use super::tables::CELLS;
 use super::view::View;
 use crate::law::{Affine, COORDINATES};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
-/// Exponents with `|lambda| r` below this are followed by their Taylor polynomial over a cell of
-/// half-width r, faster ones are bounded by their size: both cost about the same here.
-const FOLLOWED: f64 = 1.8;
-
 /// Bound of the rounding of a sum, in units of the sum of the sizes of its terms.
 ///
 /// With u = eps/2: an exponential is good to 6u (exponential and sine to 2.4u each, their product
-/// u), so the square of the one over half a cell to 15u, and a complex product adds sqrt(5) u
-/// (R. Brent, C. Percival, P. Zimmermann, Math. Comp. 76, 2007). Carried over eight cells that is
-/// 8 (15 + 2.3) u = 139u. The product with the amplitude and the sum of the eight lanes add 6u;
-/// each block of a sum adds one more, for which [`Signal::rounding`] allows.
-const ROUNDING: f64 = (8.0 * 17.3 + 6.0) * 0.5 * f64::EPSILON;
+/// u), and a complex product adds sqrt(5) u (R. Brent, C. Percival, P. Zimmermann, Math. Comp. 76,
+/// 2007). That over half a cell has the powers 2, 3, 4 and 8 with 14.3u, 22.6u, 30.8u and 63.8u;
+/// the middle of the eighth cell lies at the product of the last three, good to 122u. The
+/// exponential at the left end of the first cell, the amplitude and their products add 11u, the
+/// parts of the sum 3u, and each of its terms one more, for which [`Signal::rounding`] allows.
+const ROUNDING: f64 = 136.0 * 0.5 * f64::EPSILON;
 
-// The anchors are where the bound says that they are.
-const _: () = assert!(CELLS_BETWEEN_ANCHORS == 8);
+// There are as many cells as the bound says.
+const _: () = assert!(CELLS == 8);
 
 /// Part of a signal that is neither exponential nor polynomial.
 #[derive(Debug, Clone, Copy)]
@@ -44,11 +41,11 @@ struct Special {
 
 /// Eight exponential terms of a signal.
 #[derive(Debug, Clone, Copy)]
-struct Terms {
+pub(crate) struct Terms {
     /// `b`, `b lambda`, `b lambda^2`
-    of: [ComplexBlock; 3],
+    pub of: [ComplexBlock; 3],
     /// `|b|`
-    size: RealBlock,
+    pub size: RealBlock,
 }
 
 impl Terms {
@@ -61,7 +58,7 @@ impl Terms {
 /// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials + resonances`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Signal {
-    terms: Vec<Terms>,
+    pub terms: Vec<Terms>,
     polynomial: Polynomial,
     specials: Vec<Special>,
     resonances: Vec<Resonant>,
@@ -190,9 +187,9 @@ impl Signal {
     #[inline(always)]
     pub(crate) fn rounding(&self, t: f64) -> f64 {
         let polynomial = self.polynomial.size(t);
-        let blocks = 0.5 * f64::EPSILON * self.terms.len() as f64;
+        let terms = 0.5 * f64::EPSILON * (LANES * self.terms.len()) as f64;
         let exponentials =
-            (ROUNDING + blocks) * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t;
+            (ROUNDING + terms) * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t;
         if self.resonances.is_empty() {
             return exponentials;
         }
@@ -420,17 +417,6 @@ impl Signal {
         values
     }
 
-    /// The value alone.
-    #[inline(always)]
-    pub(crate) fn value<I: Instructions>(
-        &self,
-        phases: &Phases,
-        phase: Phase,
-        at: &Instant<'_>,
-    ) -> f64 {
-        self.derivative_value::<I>(0, phases, phase, at)
-    }
-
     /// One of value, slope and curvature alone.
     #[inline(always)]
     pub(crate) fn derivative_value<I: Instructions>(
@@ -453,12 +439,86 @@ impl Signal {
     #[inline(always)]
     fn add_others(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
         self.add_slow(phases, phase, t, values);
-        self.clustered.add_values(phases, phase, t, values);
+        if !self.clustered.is_empty() {
+            self.clustered.add_values(phases, phase, t, values);
+        }
+    }
+
+    /// Adds the clusters' parts to jets on cells of the given width from a time on.
+    #[inline(always)]
+    pub(crate) fn add_clusters(
+        &self,
+        phases: &Phases,
+        phase: Phase,
+        time: f64,
+        width: f64,
+        jets: &mut Jets,
+    ) {
+        if !self.clustered.is_empty() {
+            self.clustered.add_to_jets(phases, phase, time, width, jets);
+        }
+    }
+
+    /// Adds the clusters' parts to a jet that stands at the left end of a cell.
+    #[inline(always)]
+    pub(crate) fn add_clusters_after(
+        &self,
+        phases: &Phases,
+        phase: Phase,
+        time: f64,
+        width: f64,
+        jet: &mut Jet,
+    ) {
+        if !self.clustered.is_empty() {
+            self.clustered.add_to_jet(phases, phase, time, width, jet);
+        }
+    }
+
+    /// What is not exponential of value and first two derivatives at eight times.
+    #[inline(always)]
+    pub(crate) fn slow_over<I: Instructions>(
+        &self,
+        phases: &Phases,
+        phase: Phase,
+        times: Lanes<I>,
+    ) -> [Lanes<I>; 3] {
+        if self.is_plain() {
+            return self.polynomial.short_over(times);
+        }
+        let mut values = [[0.0; LANES]; 3];
+        for (lane, time) in times.numbers().into_iter().enumerate() {
+            let mut at = [0.0; 3];
+            self.add_slow(phases, phase, time, &mut at);
+            for (values, value) in values.iter_mut().zip(at) {
+                values[lane] = value;
+            }
+        }
+        let [value, slope, curvature] = values;
+        [Lanes::new(value), Lanes::new(slope), Lanes::new(curvature)]
+    }
+
+    /// Whether it is a sum of exponentials and a short polynomial, beside clusters.
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        self.specials.is_empty() && self.resonances.is_empty() && self.polynomial.is_short()
+    }
+
+    /// Bound of the third derivative of what is not exponential, up to t.
+    #[inline(always)]
+    pub(crate) fn slow_third(&self, t: f64) -> f64 {
+        if self.is_plain() {
+            return 0.0;
+        }
+        let mut third = self.third_of_loads(t);
+        for special in &self.specials {
+            third += special.third;
+        }
+        third
     }
 
     /// Polynomial and special parts.
     #[inline(always)]
-    fn add_slow(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
+    pub(crate) fn add_slow(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
         self.polynomial.add_to(t, values);
         self.add_specials(phases, phase, t, values);
     }
@@ -484,62 +544,6 @@ impl Signal {
                 *value += part;
             }
         }
-    }
-
-    /// The jet at `at`, valid over `reach` to both sides (or to the right alone). `sizes` bounds
-    /// the moduli of the exponentials there.
-    #[inline(always)]
-    pub(crate) fn jet<I: Instructions>(
-        &self,
-        phases: &Phases,
-        phase: Phase,
-        at: &Instant<'_>,
-        sizes: &[RealBlock],
-        reach: f64,
-    ) -> Jet {
-        let moduli = &phases.spectra[phase.spectrum].moduli;
-        let limit = Lanes::<I>::of(FOLLOWED / reach);
-        let zero = Lanes::<I>::of(0.0);
-        let mut sums = [zero; 3];
-        let mut third = zero;
-        let mut rest = [zero; 3];
-        let exponents = at.exponentials.iter().zip(moduli.iter().zip(sizes));
-        for (terms, (e, (modulus, size))) in self.terms.iter().zip(exponents) {
-            let modulus = modulus.lanes::<I>();
-            let e = e.lanes::<I>();
-            let size = terms.size.lanes() * size.lanes();
-            // Exponents are either followed or bounded.
-            let followed = Complex::new(
-                modulus.select_less(limit, e.re, zero),
-                modulus.select_less(limit, e.im, zero),
-            );
-            let slow = modulus.select_less(limit, size, zero);
-            let fast = size - slow;
-            for (sum, of) in sums.iter_mut().zip(&terms.of) {
-                *sum = of.lanes().add_real_product(followed, *sum);
-            }
-            let modulus2 = modulus * modulus;
-            rest[0] += fast;
-            rest[1] = fast.mul_add(modulus, rest[1]);
-            rest[2] = fast.mul_add(modulus2, rest[2]);
-            third = (slow * modulus).mul_add(modulus2, third);
-        }
-        let totals = Lanes::totals([
-            sums[0], sums[1], sums[2], third, rest[0], rest[1], rest[2], zero,
-        ]);
-        let mut values = [totals[0], totals[1], totals[2]];
-        self.add_slow(phases, phase, at.time, &mut values);
-        let specials: f64 = self.specials.iter().map(|s| s.third).sum();
-        let mut jet = Jet {
-            value: values[0],
-            slope: values[1],
-            curvature: values[2],
-            third: totals[3] + specials + self.third_of_loads(at.time + reach),
-            rest: [totals[4], totals[5], totals[6]],
-            rounding: self.rounding(at.time + reach),
-        };
-        (self.clustered).add_to_jet(phases, phase, at.time, reach, &mut jet);
-        jet
     }
 }
 

@@ -32,6 +32,8 @@ pub trait Instructions: Copy + 'static {
         yes: Self::Vector,
         no: Self::Vector,
     ) -> Self::Vector;
+    /// One bit a number, set where `a < b`.
+    fn less(a: Self::Vector, b: Self::Vector) -> u8;
     /// The sums of eight vectors, each as [`super::Lanes::total`] adds its numbers.
     fn totals(x: [Self::Vector; LANES]) -> Self::Vector;
 }

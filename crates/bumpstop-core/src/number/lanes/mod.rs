@@ -91,6 +91,12 @@ impl<I: Instructions> Lanes<I> {
         rough.mul_add(lack, rough)
     }
 
+    /// One bit a lane, the lowest for the first, set where `self < other`.
+    #[inline(always)]
+    pub fn less(self, other: Self) -> u8 {
+        I::less(self.0, other.0)
+    }
+
     /// Sum of the lanes, pairwise, in one fixed order.
     #[inline(always)]
     pub fn total(self) -> f64 {
@@ -269,6 +275,7 @@ mod tests {
                 a.mul_add(b, sin),
                 a.sub_mul(b, cos),
                 Lanes::new(Lanes::totals([a, b, sin, cos, a * b, -a, b.abs(), a + b])),
+                Lanes::of(f64::from(a.less(b))),
             ];
             results
                 .iter()

@@ -89,6 +89,11 @@ impl Instructions for Plain {
         each!(i => if a[i] < b[i] { yes[i] } else { no[i] })
     }
     #[inline(never)]
+    fn less(a: Self::Vector, b: Self::Vector) -> u8 {
+        let bit = |i: usize| u8::from(a[i] < b[i]) << i;
+        (0..LANES).fold(0, |bits, i| bits | bit(i))
+    }
+    #[inline(never)]
     fn totals(x: [Self::Vector; LANES]) -> Self::Vector {
         each!(i => total(&x[i]))
     }

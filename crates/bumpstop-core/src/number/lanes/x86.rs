@@ -129,6 +129,11 @@ impl Instructions for Avx512 {
         unsafe { _mm512_fnmadd_pd(a, b, c) }
     }
     #[inline(always)]
+    fn less(a: Self::Vector, b: Self::Vector) -> u8 {
+        // SAFETY: as above.
+        unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b) }
+    }
+    #[inline(always)]
     fn totals(x: [Self::Vector; LANES]) -> Self::Vector {
         // SAFETY: as above.
         unsafe {
@@ -256,6 +261,13 @@ impl Instructions for Avx2 {
         [half(0), half(1)]
     }
     #[inline(always)]
+    fn less(a: Self::Vector, b: Self::Vector) -> u8 {
+        // SAFETY: as above.
+        let half =
+            |i: usize| unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a[i], b[i])) };
+        (half(0) | half(1) << (LANES / 2)) as u8
+    }
+    #[inline(always)]
     fn totals(x: [Self::Vector; LANES]) -> Self::Vector {
         // SAFETY: as above.
         unsafe {
@@ -300,7 +312,7 @@ mod tests {
             let (sin, cos) = x.sin_cos();
             let mixed = (sin * cos - x / cos).select_less(x.exp(), -x.sqrt(), x.abs());
             let fused = mixed.max(sin).mul_add(cos, x).sub_mul(sin, cos);
-            let rough = fused.rough_recip();
+            let rough = fused.rough_recip() + Lanes::of(f64::from(sin.less(cos)));
             Lanes::totals([x, sin, cos, mixed, fused, -x, cos, rough]).map(f64::to_bits)
         }
     }
