@@ -119,6 +119,7 @@ impl Affine {
     }
 
     /// All factors in a row, the constant first.
+    #[inline(always)]
     fn flat(&self) -> [f64; 1 + 3 * COORDINATES] {
         let mut all = [0.0; 1 + 3 * COORDINATES];
         all[0] = self.constant;
@@ -130,17 +131,31 @@ impl Affine {
     /// Whether another function is the same up to a factor and rounding.
     pub fn is_multiple_of(&self, other: &Self) -> bool {
         let (a, b) = (self.flat(), other.flat());
-        let Some(pivot) = (0..a.len()).rev().find(|&i| a[i] != 0.0) else {
+        let mut pivot = None;
+        for (i, factor) in a.iter().enumerate() {
+            if *factor != 0.0 {
+                pivot = Some(i);
+            }
+        }
+        let Some(pivot) = pivot else {
             return false;
         };
-        let alike = |x: f64, y: f64| (x - y).abs() <= ALIKE * x.abs().max(y.abs());
-        b[pivot] != 0.0 && (0..a.len()).all(|i| alike(a[i] * b[pivot], b[i] * a[pivot]))
+        let mut alike = b[pivot] != 0.0;
+        for i in 0..a.len() {
+            let (x, y) = (a[i] * b[pivot], b[i] * a[pivot]);
+            alike &= (x - y).abs() <= ALIKE * x.abs().max(y.abs());
+        }
+        alike
     }
 
     /// Whether the rate of this function is another one up to a factor, so that it turns where
     /// the other is zero.
     pub fn rises_with(&self, other: &Self) -> bool {
-        self.acceleration == [0.0; COORDINATES] && self.derivative().is_multiple_of(other)
+        // A rate has neither a constant nor positions.
+        let is_rate = other.constant == 0.0 && other.position == [0.0; COORDINATES];
+        is_rate
+            && self.acceleration == [0.0; COORDINATES]
+            && self.derivative().is_multiple_of(other)
     }
 }
 

@@ -104,6 +104,9 @@ impl Contacts {
                 contacts.stops.push(number);
             }
         }
+        if contacts.is_empty() {
+            return contacts;
+        }
         let directions = Directions::of(problem, contacts.stops.clone());
         let moved = directions.sizes(&problem.displacement);
         for (stop, size) in contacts.stops.iter().zip(moved) {

@@ -64,9 +64,9 @@ impl Watch {
                 if flat {
                     signal.start_flat(phases, phase);
                 }
-                let same = before.is_some_and(|fired| fired.function.is_multiple_of(function));
+                let same = || before.is_some_and(|fired| fired.function.is_multiple_of(function));
                 let [value, slope, _] = signal.values_at_start(phases, phase);
-                let zero = same || value.abs() <= signal.rounding(0.0) || value < 0.0;
+                let zero = value <= signal.rounding(0.0) || same();
                 let noise = signal.rate_rounding(phases, phase)[0];
                 let is_held = phases.spectra[phase.spectrum].held.is_some();
                 let start = if !zero {

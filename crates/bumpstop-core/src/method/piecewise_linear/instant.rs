@@ -2,6 +2,7 @@
 
 use crate::law::{Affine, COORDINATES, Law, Local, LocalMotion, Piece, State, project};
 use crate::problem::Problem;
+use crate::system::ModalSystem;
 
 /// The structure's state at an instant.
 #[derive(Debug, Clone, Copy)]
@@ -74,48 +75,46 @@ fn local_motion<L: Law>(
     moment: Moment<'_>,
 ) -> LocalMotion {
     let (q, v) = (moment.displacement, moment.velocity);
-    let [forces, force_rates] = problem.forcing.around(moment.time);
-    let accelerations: Vec<Term> = (0..q.len())
-        .map(|mode| {
-            let mut sum = Term::of(forces[mode]);
-            sum.add_structure(problem, mode, q, v);
-            for (law, state) in others(problem, states, without) {
-                let force = law.force(state, &project(law, q), &project(law, v));
-                sum.add_law(law, mode, &force);
-            }
-            sum
-        })
-        .collect();
-    let a: Vec<f64> = accelerations.iter().map(|a| a.value).collect();
-    let jerk = |mode: usize| {
-        let mut sum = Term::of(force_rates[mode]);
-        sum.add_structure(problem, mode, v, &a);
-        for (law, state) in others(problem, states, without) {
-            let piece = law.piece(state).unwrap_or(Piece::FREE);
-            let rate = Piece {
-                constant: [0.0; COORDINATES],
-                ..piece
-            };
-            sum.add_law(law, mode, &rate.force(&project(law, v), &project(law, &a)));
-        }
-        sum
-    };
+    let modes = q.len();
+    let mut room = vec![0.0; 4 * modes];
+    let (first, second) = room.split_at_mut(2 * modes);
+    let (mut accelerations, mut jerks) = (Sums::new(first), Sums::new(second));
+    let forcing = &problem.forcing;
+    if forcing.varies() {
+        let [forces, rates] = forcing.around(moment.time);
+        accelerations.add(&forces);
+        jerks.add(&rates);
+    } else {
+        accelerations.add(forcing.forces());
+    }
+    accelerations.add_structure(&problem.system, q, v);
+    for (law, state) in others(problem, states, without) {
+        let force = law.force(state, &project(law, q), &project(law, v));
+        accelerations.add_law(law, &force);
+    }
+    let a = &*accelerations.values;
+    jerks.add_structure(&problem.system, v, a);
+    for (law, state) in others(problem, states, without) {
+        let piece = law.piece(state).unwrap_or(Piece::FREE);
+        let rate = Piece {
+            constant: [0.0; COORDINATES],
+            ..piece
+        };
+        jerks.add_law(law, &rate.force(&project(law, v), &project(law, a)));
+    }
     let mut motion = LocalMotion::default();
     for (coordinate, row) in problem.laws[of].rows().iter().enumerate() {
-        for (mode, factor) in row.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
-            let terms = [
-                Term::of(q[mode]),
-                Term::of(v[mode]),
-                accelerations[mode],
-                jerk(mode),
-            ];
-            let zero = |term: Term| 8.0 * f64::EPSILON * (factor * term.size).abs();
-            motion.add(
-                coordinate,
-                terms.map(|term| factor * term.value),
-                terms.map(zero),
-            );
+        let (mut derivatives, mut zero) = ([0.0; 4], [0.0; 4]);
+        for (mode, factor) in row.iter().enumerate() {
+            let values = [q[mode], v[mode], a[mode], jerks.values[mode]];
+            let (size, jerk_size) = (accelerations.sizes[mode], jerks.sizes[mode]);
+            let sizes = [q[mode].abs(), v[mode].abs(), size, jerk_size];
+            for order in 0..4 {
+                derivatives[order] += factor * values[order];
+                zero[order] += 8.0 * f64::EPSILON * factor.abs() * sizes[order];
+            }
         }
+        motion.add(coordinate, derivatives, zero);
     }
     motion
 }
@@ -131,43 +130,52 @@ fn others<'a, L: Law>(
         .map(|(_, (law, state))| (law, *state))
 }
 
-/// A sum, and the sizes of what was added.
-#[derive(Debug, Clone, Copy)]
-struct Term {
-    value: f64,
-    size: f64,
+/// Sums, one for each mode, and the sizes of what was added to each.
+struct Sums<'a> {
+    values: &'a mut [f64],
+    sizes: &'a mut [f64],
 }
 
-impl Term {
-    fn of(value: f64) -> Self {
-        Self {
-            value,
-            size: value.abs(),
+impl<'a> Sums<'a> {
+    /// Sums in a room of zeros.
+    fn new(room: &'a mut [f64]) -> Self {
+        let (values, sizes) = room.split_at_mut(room.len() / 2);
+        Self { values, sizes }
+    }
+
+    fn add_to(&mut self, mode: usize, part: f64) {
+        self.values[mode] += part;
+        self.sizes[mode] += part.abs();
+    }
+
+    fn add(&mut self, parts: &[f64]) {
+        for (mode, part) in parts.iter().enumerate() {
+            self.add_to(mode, *part);
         }
     }
 
-    fn add(&mut self, part: f64) {
-        self.value += part;
-        self.size += part.abs();
-    }
-
-    /// What the structure does to a mode: the motion and its rate, or those of a higher order.
-    fn add_structure<L>(&mut self, problem: &Problem<L>, mode: usize, x: &[f64], rate: &[f64]) {
-        let system = &problem.system;
-        self.add(-system.omega2()[mode] * x[mode]);
-        self.add(-system.damping()[mode] * rate[mode]);
-        if let Some(coupling) = system.coupling() {
-            self.add(-coupling.product(mode, rate));
+    /// What the structure does to the modes: the motion and its rate, or those of a higher order.
+    fn add_structure(&mut self, system: &ModalSystem, x: &[f64], rate: &[f64]) {
+        let (omega2, damping) = (system.omega2(), system.damping());
+        for (mode, (x, rate)) in x.iter().zip(rate).enumerate() {
+            self.add_to(mode, -omega2[mode] * x);
+            self.add_to(mode, -damping[mode] * rate);
         }
-        if let Some(circulatory) = system.circulatory() {
-            self.add(-circulatory.product(mode, x));
+        for (matrix, motion) in [(system.coupling(), rate), (system.circulatory(), x)] {
+            if let Some(matrix) = matrix {
+                for mode in 0..motion.len() {
+                    self.add_to(mode, -matrix.product(mode, motion));
+                }
+            }
         }
     }
 
-    /// A law's force on a mode.
-    fn add_law<L: Law>(&mut self, law: &L, mode: usize, force: &Local<f64>) {
+    /// A law's force on the modes.
+    fn add_law<L: Law>(&mut self, law: &L, force: &Local<f64>) {
         for (row, force) in law.rows().iter().zip(force) {
-            self.add(row[mode] * force);
+            for (mode, factor) in row.iter().enumerate() {
+                self.add_to(mode, factor * force);
+            }
         }
     }
 }

@@ -35,7 +35,9 @@ pub(crate) struct Phase {
 /// The phases of a run in order of time.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Phases {
-    pub spectra: Vec<Spectrum>,
+    /// Each in a place of its own: they are too large to be moved about.
+    #[allow(clippy::vec_box)]
+    pub spectra: Vec<Box<Spectrum>>,
     pub list: Vec<Phase>,
     amplitudes: Vec<ComplexBlock>,
     kept: Vec<f64>,
@@ -43,7 +45,8 @@ pub(crate) struct Phases {
     /// Polynomials of the loads that change in time.
     coefficients: Vec<f64>,
     /// Spectra of an earlier run, for their memory.
-    spare: Vec<Spectrum>,
+    #[allow(clippy::vec_box)]
+    spare: Vec<Box<Spectrum>>,
 }
 
 thread_local! {
@@ -121,7 +124,7 @@ impl Phases {
 
     /// Leaves the memory to the next run on this thread.
     pub(crate) fn leave(&mut self) {
-        let vectors: usize = self.spectra.iter().map(Spectrum::numbers).sum();
+        let vectors: usize = self.spectra.iter().map(|spectrum| spectrum.numbers()).sum();
         let kept = self.kept.len() + self.coefficients.len();
         let numbers = vectors + self.amplitudes.len() * 2 * LANES + kept;
         if numbers <= MOST_SPARE {
@@ -130,7 +133,7 @@ impl Phases {
     }
 
     /// Memory for a spectrum.
-    pub(crate) fn spare_spectrum(&mut self) -> Spectrum {
+    pub(crate) fn spare_spectrum(&mut self) -> Box<Spectrum> {
         self.spare.pop().unwrap_or_default()
     }
 
@@ -186,7 +189,7 @@ impl Phases {
             };
             self.kept.extend([x0, v0]);
             let amplitudes = single.motion.amplitudes(x0, v0);
-            let count = single.motion.exponents().1;
+            let count = single.motion.count();
             for (i, amplitude) in amplitudes[..count].iter().enumerate() {
                 set_entry(&mut work.z, single.at + i, *amplitude);
             }
@@ -223,7 +226,7 @@ impl Phases {
     }
 
     /// Keeps a spectrum; returns its number.
-    pub(crate) fn add_spectrum(&mut self, spectrum: Spectrum) -> usize {
+    pub(crate) fn add_spectrum(&mut self, spectrum: Box<Spectrum>) -> usize {
         self.spectra.push(spectrum);
         self.spectra.len() - 1
     }
@@ -333,6 +336,13 @@ impl Phases {
         t: f64,
         work: &Workspace,
     ) -> (f64, f64) {
+        if let (1, Some(rest)) = (single.motion.count(), single.motion.rest()) {
+            let (x, v) = (
+                entry(&work.z, single.at).re,
+                entry(&work.rate, single.at).re,
+            );
+            return (rest + x, v);
+        }
         let kept = self.kept(phase, index);
         if single.motion.is_special() {
             let [x, v, ..] = single.motion.special(kept, t);
@@ -340,7 +350,7 @@ impl Phases {
         }
         let p = single.motion.polynomial(kept.x, kept.v);
         let (mut x, mut v) = (p[0] + t * (p[1] + t * p[2]), p[1] + 2.0 * t * p[2]);
-        for i in 0..single.motion.exponents().1 {
+        for i in 0..single.motion.count() {
             x += entry(&work.z, single.at + i).re;
             v += entry(&work.rate, single.at + i).re;
         }
@@ -378,13 +388,16 @@ impl Workspace {
         self.lack_velocity.clear();
         self.given_position.resize(spectrum.groups, 0.0);
         self.given_velocity.resize(spectrum.groups, 0.0);
-        for g in 0..spectrum.groups {
-            let (rest, velocity) = (spectrum.at_rest[g], self.velocity[g]);
-            let rate = spectrum.rate_at_rest.get(g).copied().unwrap_or(0.0);
-            self.lack_position.push(self.position[g] - rest);
-            self.lack_velocity.push(velocity - rate);
-            size = size.max(self.position[g].abs()).max(rest.abs());
+        for (position, rest) in self.position.iter().zip(&spectrum.at_rest) {
+            self.lack_position.push(position - rest);
+            size = size.max(position.abs()).max(rest.abs());
+        }
+        for velocity in &self.velocity {
+            self.lack_velocity.push(*velocity);
             size_rate = size_rate.max(velocity.abs());
+        }
+        for (lack, rate) in self.lack_velocity.iter_mut().zip(&spectrum.rate_at_rest) {
+            *lack -= rate;
         }
         spectrum.add_amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.z);
         let (lack, lack_rate) = self.find_lack::<I>(spectrum);
@@ -405,9 +418,9 @@ impl Workspace {
     /// What the amplitudes lack of the state; returns the largest lack of position and velocity.
     #[inline(always)]
     fn find_lack<I: Instructions>(&mut self, spectrum: &Spectrum) -> (f64, f64) {
-        for b in 0..spectrum.coupled_width {
-            let rate = self.z[b].lanes::<I>() * spectrum.lambda[b].lanes();
-            self.rate[b].put(rate);
+        let exponents = spectrum.lambda.iter().take(spectrum.coupled_width);
+        for ((lambda, z), rate) in exponents.zip(&self.z).zip(&mut self.rate) {
+            rate.put(z.lanes::<I>() * lambda.lanes());
         }
         for cluster in &spectrum.clusters {
             let rate = cluster.rate(&cluster.columns(&self.z));
@@ -416,11 +429,13 @@ impl Workspace {
         spectrum.group_sums::<I>(&self.z, &mut self.given_position);
         spectrum.group_sums::<I>(&self.rate, &mut self.given_velocity);
         let (mut worst, mut worst_rate) = (0.0f64, 0.0f64);
-        for g in 0..spectrum.groups {
-            self.lack_position[g] -= self.given_position[g];
-            self.lack_velocity[g] -= self.given_velocity[g];
-            worst = larger(worst, self.lack_position[g].abs());
-            worst_rate = larger(worst_rate, self.lack_velocity[g].abs());
+        for (lack, given) in self.lack_position.iter_mut().zip(&self.given_position) {
+            *lack -= given;
+            worst = larger(worst, lack.abs());
+        }
+        for (lack, given) in self.lack_velocity.iter_mut().zip(&self.given_velocity) {
+            *lack -= given;
+            worst_rate = larger(worst_rate, lack.abs());
         }
         (worst, worst_rate)
     }

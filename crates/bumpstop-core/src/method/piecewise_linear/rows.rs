@@ -1,6 +1,7 @@
 //! Complex numbers in whole lanes.
 
 use crate::number::{Block, Complex, Instructions, LANES, Lanes};
+use std::slice::{ChunksExact, ChunksExactMut};
 
 /// Eight complex numbers side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,6 +100,27 @@ impl Rows {
     /// Blocks in a row.
     pub(crate) fn width(&self) -> usize {
         self.width
+    }
+
+    /// Consecutive rows, from one on.
+    #[inline(always)]
+    pub(crate) fn rows(&self, first: usize, count: usize) -> ChunksExact<'_, ComplexBlock> {
+        self.blocks[first * self.width..][..count * self.width].chunks_exact(self.width.max(1))
+    }
+
+    #[inline(always)]
+    pub(crate) fn rows_mut(
+        &mut self,
+        first: usize,
+        count: usize,
+    ) -> ChunksExactMut<'_, ComplexBlock> {
+        self.blocks[first * self.width..][..count * self.width].chunks_exact_mut(self.width.max(1))
+    }
+
+    /// The blocks of the rows before one, and of the others.
+    #[inline(always)]
+    pub(crate) fn split_rows(&mut self, at: usize) -> (&mut [ComplexBlock], &mut [ComplexBlock]) {
+        self.blocks.split_at_mut(at * self.width)
     }
 
     #[inline(always)]

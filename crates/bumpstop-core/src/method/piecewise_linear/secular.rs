@@ -97,9 +97,9 @@ impl Coupling {
         let middle = (bracket.upper - bracket.lower) * Lanes::<I>::of(0.5);
         // The rest of f at the middle, all but the two poles beside the root.
         let mut rest = Lanes::<I>::of(1.0);
-        for i in 0..self.omega2.len() {
-            let z = k * Lanes::<I>::of(self.phi[i] * self.phi[i]);
-            let distance = Lanes::<I>::of(self.omega2[i]) - bracket.lower - middle;
+        for (i, (omega2, phi)) in self.omega2.iter().zip(&self.phi).enumerate() {
+            let z = k * Lanes::<I>::of(phi * phi);
+            let distance = Lanes::<I>::of(*omega2) - bracket.lower - middle;
             rest = bracket
                 .outside(i, z, Lanes::<I>::of(0.0))
                 .mul_add(distance.rough_recip(), rest);
@@ -116,13 +116,14 @@ impl Coupling {
             let (mut below, mut below_slope) = (Lanes::<I>::of(0.0), Lanes::<I>::of(0.0));
             let (mut above, mut above_slope) = (Lanes::<I>::of(0.0), Lanes::<I>::of(0.0));
             sums = DampingSums::new(self);
-            for i in 0..self.omega2.len() {
-                let z = k * Lanes::<I>::of(self.phi[i] * self.phi[i]);
-                let distance = Lanes::<I>::of(self.omega2[i]) - origin.omega2 - root;
+            let modes = self.omega2.iter().zip(&self.damping).zip(&self.phi);
+            for (i, ((omega2, damping), phi)) in modes.enumerate() {
+                let z = k * Lanes::<I>::of(phi * phi);
+                let distance = Lanes::<I>::of(*omega2) - origin.omega2 - root;
                 let inverse = distance.rough_recip();
                 let term = z * inverse;
                 let slope = term * inverse;
-                sums.add(self.damping[i], slope);
+                sums.add(*damping, slope);
                 let zero = Lanes::<I>::of(0.0);
                 below += bracket.below(i, term, zero);
                 below_slope += bracket.below(i, slope, zero);
@@ -187,23 +188,25 @@ impl Coupling {
             // sums of phi^2/D, phi^2/D^2 and c phi^2/D^2
             let mut sum = Complex::zero();
             let mut squares = Complex::zero();
-            let mut damped = Complex::zero();
+            let mut damped_squares = Complex::zero();
             let near = eigenvalue.near();
-            for i in 0..self.omega2.len() {
-                let phi2 = Lanes::<I>::of(self.phi[i] * self.phi[i]);
-                let pole = eigenvalue.pole(self, near, i);
+            let modes = self.omega2.iter().zip(&self.damping).zip(&self.phi);
+            let rows = inverses.rows_mut(0, self.omega2.len());
+            for (((omega2, damping), phi), row) in modes.zip(rows) {
+                let phi2 = Lanes::<I>::of(phi * phi);
+                let pole = eigenvalue.pole(near, *omega2, *damping);
                 let inverse = pole.conj().scale(pole.norm2().recip());
-                inverses.row_mut(i)[block].put(inverse);
+                row[block].put(inverse);
                 let term = inverse.scale(phi2);
                 sum += term;
                 let square = term * inverse;
                 squares += square;
-                damped = square.scale_add(Lanes::<I>::of(self.damping[i]), damped);
+                damped_squares = square.scale_add(Lanes::<I>::of(*damping), damped_squares);
             }
             // f = 1 + kappa sum,  f' = c sum - kappa (2 s squares + damped)
             let two = Lanes::<I>::of(2.0);
             let f = (kappa * sum).plus(Lanes::<I>::of(1.0));
-            let slope = sum.scale(c) - kappa * s.scale(two).mul_add(squares, damped);
+            let slope = sum.scale(c) - kappa * s.scale(two).mul_add(squares, damped_squares);
             // Newton's step of D_o f is f / (D_o' f / D_o + f').
             let own = eigenvalue.own_pole().recip();
             let own_rate = s.scale(two).plus(origin.damping) * own;
@@ -235,11 +238,12 @@ impl Coupling {
         let step = eigenvalue.value - before;
         let twice = eigenvalue.value + before;
         let one = Lanes::<I>::of(1.0);
-        for i in 0..self.omega2.len() {
-            let old = inverses.row(i)[block].lanes();
-            let x = step * twice.plus(Lanes::<I>::of(self.damping[i])) * old;
+        let rows = inverses.rows_mut(0, self.omega2.len());
+        for (damping, row) in self.damping.iter().zip(rows) {
+            let old = row[block].lanes();
+            let x = step * twice.plus(Lanes::<I>::of(*damping)) * old;
             let new = old * x.mul_add(x, -x).plus(one);
-            inverses.row_mut(i)[block].put(bracket.keep(new));
+            row[block].put(bracket.keep(new));
         }
     }
 }
@@ -269,20 +273,17 @@ impl<I: Instructions> Bracket<I> {
         let mut live = [0.0; LANES];
         let (mut lower, mut upper) = ([0.0; LANES], [0.0; LANES]);
         let (mut phi2_lower, mut phi2_upper) = ([0.0; LANES], [0.0; LANES]);
-        let at = |i: usize| if i < n { coupling.omega2[i] } else { beyond };
-        let phi2 = |i: usize| {
-            if i < n {
-                coupling.phi[i] * coupling.phi[i]
-            } else {
-                0.0
-            }
-        };
         for lane in 0..LANES {
             let index = (first + lane).min(n - 1);
+            let (w2, phi) = (coupling.omega2[index], coupling.phi[index]);
             places[lane] = index as f64 + 0.5;
             live[lane] = if first + lane < n { -1.0 } else { 0.0 };
-            (lower[lane], upper[lane]) = (at(index), at(index + 1));
-            (phi2_lower[lane], phi2_upper[lane]) = (phi2(index), phi2(index + 1));
+            (lower[lane], phi2_lower[lane]) = (w2, phi * phi);
+            (upper[lane], phi2_upper[lane]) = (beyond, 0.0);
+            if index + 1 < n {
+                let phi = coupling.phi[index + 1];
+                (upper[lane], phi2_upper[lane]) = (coupling.omega2[index + 1], phi * phi);
+            }
         }
         Self {
             place: Lanes::new(places),
@@ -465,9 +466,9 @@ impl<I: Instructions> Eigenvalue<I> {
 
     /// `D_i(s) = (w_i^2 - w_o^2) + (c_i - c_o) p_o + delta (2 p_o + c_i + delta)`
     #[inline(always)]
-    fn pole(&self, coupling: &Coupling, near: Complex<Lanes<I>>, i: usize) -> Complex<Lanes<I>> {
-        let damping = Lanes::<I>::of(coupling.damping[i]);
-        let apart = Lanes::<I>::of(coupling.omega2[i]) - self.origin.omega2;
+    fn pole(&self, near: Complex<Lanes<I>>, omega2: f64, damping: f64) -> Complex<Lanes<I>> {
+        let damping = Lanes::<I>::of(damping);
+        let apart = Lanes::<I>::of(omega2) - self.origin.omega2;
         let near = self.delta.scale_add(damping, near);
         let drift = self.pole.scale_add(damping - self.origin.damping, near);
         drift.plus(apart)

@@ -144,10 +144,8 @@ impl Signal {
         let of_velocity = function.velocity[coordinate];
         let of_acceleration = function.acceleration[coordinate];
         let spectrum = &phases.spectra[phase.spectrum];
-        for (single, weight) in view.singles.iter().enumerate() {
-            if *weight == 0.0 {
-                continue;
-            }
+        for &single in &view.drifting {
+            let weight = view.singles[single];
             let motion = &spectrum.singles[single].motion;
             let kept = phases.kept(phase, single);
             let (mut position, mut velocity) = (weight * of_position, weight * of_velocity);

@@ -72,6 +72,7 @@ pub(crate) struct SingleMode {
 
 impl SingleMode {
     /// Chooses the regime for a run of the given length.
+    #[inline(always)]
     pub(crate) fn new(omega2: f64, damping: f64, force: f64, duration: f64) -> Self {
         let half = 0.5 * damping;
         let discriminant = half * half - omega2;
@@ -101,6 +102,7 @@ impl SingleMode {
     }
 
     /// The exponents that the mode adds to a phase.
+    #[inline(always)]
     pub(crate) fn exponents(&self) -> ([Complex<f64>; 2], usize) {
         let none = Complex::zero();
         match self.regime {
@@ -111,7 +113,27 @@ impl SingleMode {
         }
     }
 
+    /// How many exponents the mode adds to a phase.
+    #[inline(always)]
+    pub(crate) fn count(&self) -> usize {
+        match self.regime {
+            Regime::Oscillating(_) | Regime::Coasting => 1,
+            Regime::Overdamped { .. } => 2,
+            Regime::Free | Regime::NearCritical | Regime::Slow => 0,
+        }
+    }
+
+    /// Where it rests, if its motion is exponentials around that.
+    #[inline(always)]
+    pub(crate) fn rest(&self) -> Option<f64> {
+        match self.regime {
+            Regime::Oscillating(_) | Regime::Overdamped { .. } => Some(self.force / self.omega2),
+            _ => None,
+        }
+    }
+
     /// Amplitudes of the exponents from the state at the start of a phase.
+    #[inline(always)]
     pub(crate) fn amplitudes(&self, x0: f64, v0: f64) -> [Complex<f64>; 2] {
         let none = Complex::zero();
         match self.regime {
@@ -151,6 +173,7 @@ impl SingleMode {
     }
 
     /// Whether the motion is neither exponentials nor a polynomial.
+    #[inline(always)]
     pub(crate) fn is_special(&self) -> bool {
         matches!(self.regime, Regime::NearCritical | Regime::Slow)
     }

@@ -19,6 +19,7 @@ use crate::error::Result;
 use crate::law::{Law, State};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
+use std::slice::ChunksExact;
 
 /// A mode's part in a coupled combination.
 #[derive(Debug, Clone, Copy)]
@@ -121,8 +122,8 @@ impl Spectrum {
         states: &[State],
         secular: Secular,
         bench: &mut Workbench,
-        room: Self,
-    ) -> Result<Self> {
+        room: Box<Self>,
+    ) -> Result<Box<Self>> {
         let mut spectrum = room.cleared();
         spectrum.states.extend_from_slice(states);
         match Acts::of(problem, states) {
@@ -172,7 +173,7 @@ impl Spectrum {
 
     /// The memory of a spectrum, for another one.
     #[inline(always)]
-    fn cleared(mut self) -> Self {
+    fn cleared(mut self: Box<Self>) -> Box<Self> {
         self.states.clear();
         self.lambda.clear();
         self.moduli.clear();
@@ -264,6 +265,12 @@ impl Spectrum {
         self.vectors.reset(3 * self.groups, width);
     }
 
+    /// The shapes of all groups: see [`Spectrum::shape`].
+    #[inline(always)]
+    pub(crate) fn shapes(&self) -> ChunksExact<'_, ComplexBlock> {
+        self.vectors.rows(0, self.groups)
+    }
+
     /// Shape of a group: `y_g = Re sum_j shape_gj z_j`.
     #[inline(always)]
     pub(crate) fn shape(&self, group: usize) -> &[ComplexBlock] {
@@ -276,11 +283,6 @@ impl Spectrum {
     }
 
     /// Left vectors: amplitude = sum over groups of position row y + velocity row y'.
-    #[inline(always)]
-    fn left_position(&self, group: usize) -> &[ComplexBlock] {
-        self.vectors.row(self.groups + group)
-    }
-
     #[inline(always)]
     pub(crate) fn left_position_mut(&mut self, group: usize) -> &mut [ComplexBlock] {
         self.vectors.row_mut(self.groups + group)
@@ -332,20 +334,30 @@ impl Spectrum {
         let kappa = Complex::new(k + c * lambda.re, c * lambda.im);
         let contact = safe_recip(kappa);
         let mut norm = (contact * contact).scale(c);
-        for i in 0..self.groups {
-            let inverse = self.shape(i)[block].lanes();
-            let psi = inverse.scale(Lanes::<I>::of(coupling.phi[i]));
-            self.shape_mut(i)[block].put(psi);
-            let rate = lambda.scale(two).plus(Lanes::<I>::of(coupling.damping[i]));
+        let groups = self.groups;
+        let modes = coupling.damping.iter().zip(&coupling.phi);
+        for ((damping, phi), row) in modes.zip(self.vectors.rows_mut(0, groups)) {
+            let inverse = row[block].lanes();
+            let psi = inverse.scale(Lanes::<I>::of(*phi));
+            row[block].put(psi);
+            let rate = lambda.scale(two).plus(Lanes::<I>::of(*damping));
             norm = (psi * psi).mul_add(rate, norm);
         }
         let factor = safe_recip(norm).scale(two);
-        for i in 0..self.groups {
-            let psi = self.shape(i)[block].lanes() * factor;
-            let damper = (contact * factor).scale(c * Lanes::<I>::of(coupling.phi[i]));
-            let with_rate = psi * lambda.plus(Lanes::<I>::of(coupling.damping[i]));
-            self.left_velocity_mut(i)[block].put(psi);
-            self.left_position_mut(i)[block].put(with_rate - damper);
+        let push = (contact * factor).scale(c);
+        let (shapes, left) = self.vectors.split_rows(groups);
+        let (positions, velocities) = left.split_at_mut(left.len() / 2);
+        let width = self.coupled_width;
+        let modes = coupling.damping.iter().zip(&coupling.phi);
+        let rows = shapes
+            .chunks_exact(width)
+            .zip((positions.chunks_exact_mut(width)).zip(velocities.chunks_exact_mut(width)));
+        for ((damping, phi), (shape, (position, velocity))) in modes.zip(rows) {
+            let psi = shape[block].lanes() * factor;
+            let damper = push.scale(Lanes::<I>::of(*phi));
+            let with_rate = psi * lambda.plus(Lanes::<I>::of(*damping));
+            velocity[block].put(psi);
+            position[block].put(with_rate - damper);
         }
     }
 
@@ -499,12 +511,14 @@ impl Spectrum {
         velocity: &[f64],
         to: &mut [ComplexBlock],
     ) {
+        let groups = self.groups;
         for (block, to) in to.iter_mut().enumerate().take(self.coupled_width) {
             let mut total = to.lanes::<I>();
-            for g in 0..self.groups {
-                let (y, rate) = (Lanes::<I>::of(position[g]), Lanes::<I>::of(velocity[g]));
-                total = self.left_position(g)[block].lanes().scale_add(y, total);
-                total = self.left_velocity(g)[block].lanes().scale_add(rate, total);
+            let of_position = self.vectors.rows(groups, groups).zip(position);
+            let of_velocity = self.vectors.rows(2 * groups, groups).zip(velocity);
+            for ((left, y), (left_rate, rate)) in of_position.zip(of_velocity) {
+                total = left[block].lanes().scale_add(Lanes::of(*y), total);
+                total = left_rate[block].lanes().scale_add(Lanes::of(*rate), total);
             }
             to.put(total);
         }
@@ -513,15 +527,20 @@ impl Spectrum {
     /// `Re sum_j shape_gj z_j` over the coupled exponents, for all groups.
     #[inline(always)]
     pub(crate) fn group_sums<I: Instructions>(&self, z: &[ComplexBlock], to: &mut [f64]) {
-        for first in (0..self.groups).step_by(LANES) {
+        let z = &z[..self.coupled_width];
+        let mut shapes = self.vectors.rows(0, self.groups);
+        for to in to[..self.groups].chunks_mut(LANES) {
             let mut sums = [Lanes::<I>::of(0.0); LANES];
-            let count = LANES.min(self.groups - first);
-            for (g, sum) in sums.iter_mut().enumerate().take(count) {
-                for (shape, z) in self.shape(first + g).iter().zip(z) {
-                    *sum = shape.lanes().add_real_product(z.lanes(), *sum);
+            for (sum, shape) in sums.iter_mut().zip(shapes.by_ref().take(to.len())) {
+                let mut total = Lanes::<I>::of(0.0);
+                for (shape, z) in shape.iter().zip(z) {
+                    total = shape.lanes().add_real_product(z.lanes(), total);
                 }
+                *sum = total;
             }
-            to[first..first + count].copy_from_slice(&Lanes::totals(sums)[..count]);
+            for (to, total) in to.iter_mut().zip(Lanes::totals(sums)) {
+                *to = total;
+            }
         }
     }
 }

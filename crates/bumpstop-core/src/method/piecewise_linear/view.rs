@@ -15,10 +15,12 @@ pub(crate) struct View {
     /// Weight of each column of the clusters, one cluster behind the other; these count for
     /// nothing among the exponents.
     pub clusters: Vec<Complex<f64>>,
-    /// Position at rest of the coupled groups, and where coordinates are held.
+    /// What it sees of the positions at rest, and of where coordinates are held.
     pub rest: f64,
     /// Weight of each single motion.
     pub singles: Vec<f64>,
+    /// The single motions that it sees and that are more than exponentials around a rest.
+    pub drifting: Vec<usize>,
     /// Weight of each link of the response to loads that change in time.
     pub links: Vec<f64>,
     /// Weight of each column of its gradual exponents.
@@ -45,9 +47,9 @@ impl View {
         self.rest = 0.0;
         for b in 0..spectrum.coupled_width {
             let mut total = Complex::<Lanes<I>>::zero();
-            for (g, weight) in combined.iter().enumerate().take(spectrum.groups) {
+            for (shape, weight) in spectrum.shapes().zip(combined.iter()) {
                 let weight = Lanes::<I>::of(*weight);
-                total = spectrum.shape(g)[b].lanes().scale_add(weight, total);
+                total = shape[b].lanes().scale_add(weight, total);
             }
             self.exponents[b].put(total);
         }
@@ -65,14 +67,20 @@ impl View {
             self.rest += held.along(row);
         }
         self.singles.clear();
+        self.drifting.clear();
         for single in &spectrum.singles {
             let weight = match single.subject {
                 Subject::Mode(mode) => row[mode],
                 Subject::Combination => combined[0],
             };
             self.singles.push(weight);
-            for i in 0..single.motion.exponents().1 {
+            for i in 0..single.motion.count() {
                 set_entry(&mut self.exponents, single.at + i, Complex::real(weight));
+            }
+            match single.motion.rest() {
+                Some(rest) => self.rest += weight * rest,
+                None if weight != 0.0 => self.drifting.push(self.singles.len() - 1),
+                None => {}
             }
         }
         self.links.clear();
