@@ -278,7 +278,7 @@ impl Walk {
             let sight = if self.seen[watched].clear >> number & 1 == 1 {
                 Sight::Clear
             } else if departs {
-                self.depart::<I>(path, watched, cell)
+                self.depart(path, watched, cell)
             } else {
                 self.examine::<I>(path, watched, cell, number)
             };
@@ -346,21 +346,21 @@ impl Walk {
 
     /// The first cell of a guard that does not start positive.
     #[inline(always)]
-    fn depart<I: Instructions>(&mut self, path: &Path<'_>, watched: usize, cell: Cell) -> Sight {
+    fn depart(&mut self, path: &Path<'_>, watched: usize, cell: Cell) -> Sight {
         match path.starts[watched] {
             Start::Positive => Sight::Unclear,
             Start::Below => Sight::AtOnce,
             Start::Tangent => self.depart_tangent(path, watched, cell),
             Start::Zero(known) => {
                 let (signal, seen) = (&path.signals[watched], &self.seen[watched]);
-                self.depart_from_zero::<I>(path, signal, seen, known, cell)
+                self.depart_from_zero(path, signal, seen, known, cell)
             }
         }
     }
 
     /// The first cell of a guard that starts at zero, with slope and curvature where known.
     #[inline(always)]
-    fn depart_from_zero<I: Instructions>(
+    fn depart_from_zero(
         &self,
         path: &Path<'_>,
         signal: &Signal,
@@ -380,7 +380,6 @@ impl Walk {
                 signal.values::<Plain>(phases, phase, &at)
             };
             let noise = signal.rate_rounding(phases, phase);
-            let beyond = |rate: f64, noise: f64| if rate.abs() > noise { rate } else { 0.0 };
             [beyond(slope, noise[0]), beyond(curvature, noise[1])]
         });
         if slope < 0.0 || (slope == 0.0 && curvature < 0.0) {
@@ -418,6 +417,18 @@ impl Walk {
             level: (self.tables).level::<Plain>(phase.spectrum, path.spectrum(), cell.level),
         };
         let seen = cells.look::<Plain>(&second, phases, phase, &mut self.moved);
-        self.depart_from_zero::<Plain>(path, &second, &seen, None, cell)
+        self.depart_from_zero(path, &second, &seen, None, cell)
+    }
+}
+
+/// What is left of a rate at least, less its rounding.
+#[inline(always)]
+fn beyond(rate: f64, noise: f64) -> f64 {
+    if rate > noise {
+        rate - noise
+    } else if rate < -noise {
+        rate + noise
+    } else {
+        0.0
     }
 }

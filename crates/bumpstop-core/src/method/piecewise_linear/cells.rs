@@ -4,7 +4,7 @@ use super::jet::Jets;
 use super::phase::{Phase, Phases};
 use super::rows::{ComplexBlock, RealBlock};
 use super::signal::Signal;
-use super::tables::{CELLS, Level};
+use super::tables::{CELLS, FOLLOWED, Level};
 use crate::number::{Instructions, LANES, Lanes, Number};
 
 /// Eight consecutive cells.
@@ -90,7 +90,7 @@ impl Cells<'_> {
         let last = self.last();
         seen.jets.third = totals[0] + signal.slow_third(last);
         seen.jets.rest = [totals[1], totals[2], totals[3]];
-        seen.jets.rounding = signal.rounding(last);
+        seen.jets.rounding = PARABOLA * signal.rounding(last);
         let mut first = [0.0; 3];
         signal.add_slow(phases, phase, self.time, &mut first);
         seen.first_curvature = totals[4] + first[2];
@@ -136,6 +136,16 @@ impl Cells<'_> {
         Lanes::new(MIDDLES).mul_add(Lanes::of(self.level.width), Lanes::of(self.time))
     }
 }
+
+/// How much more than a value the parabola through value, slope and curvature may be off by
+/// rounding, anywhere on its cell: those of the terms that are followed are wrong by (a/r) and
+/// (a/r)^2 times what the value is, a = 1.2 bounding `|lambda| r`, so that all of it is
+/// 1 + a + a^2/2 = 2.92 times that; the rest is for the arithmetic of the parabola itself.
+const PARABOLA: f64 = 3.1;
+
+// Slope and curvature, times r and r^2, are then off by less than the parabola: the verdicts count
+// on it.
+const _: () = assert!(FOLLOWED + FOLLOWED * FOLLOWED < PARABOLA);
 
 /// Middles of eight cells of width one.
 const MIDDLES: [f64; LANES] = [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5];

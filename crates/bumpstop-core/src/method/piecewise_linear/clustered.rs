@@ -146,7 +146,9 @@ impl Clustered {
         for (part, cluster, z) in self.moving(phases, phase, t) {
             let size = norm(&z);
             let row = |order: usize| self.row(part, cluster, order);
-            jet.rounding += ROUNDING * norm(row(0)) * size;
+            // Of the parabola, and of slope and curvature times r and r^2.
+            let reached = norm(row(0)) + reach * (norm(row(1)) + reach * norm(row(2)));
+            jet.rounding += ROUNDING * reached * size;
             if cluster.norm() * reach < FOLLOWED {
                 jet.value += real_product(row(0), &z);
                 jet.slope += real_product(row(1), &z);

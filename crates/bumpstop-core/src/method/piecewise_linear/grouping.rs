@@ -77,27 +77,30 @@ pub(crate) fn group_alike<L: Law>(
 ) {
     let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
     let row = law.row(problem);
-    order.clear();
-    let mut sorted = true;
-    for i in 0..omega2.len() {
-        if row[i] != 0.0 {
-            sorted &= order.last().is_none_or(|&last| omega2[last] < omega2[i]);
-            order.push(i);
-        }
-    }
     coupling.start(law.stiffness, law.damping);
     members.clear();
-    members.reserve(order.len());
-    if sorted {
-        for &mode in order.iter() {
+    members.reserve(row.len());
+    let mut last = f64::NEG_INFINITY;
+    let mut sorted = true;
+    let modes = omega2.iter().zip(damping).zip(row).enumerate();
+    for (mode, ((omega2, damping), phi)) in modes {
+        if *phi != 0.0 {
+            sorted &= last < *omega2;
+            last = *omega2;
+            let group = coupling.push(*omega2, *damping, *phi);
             members.push(Member {
                 mode,
-                group: coupling.push(omega2[mode], damping[mode], row[mode]),
+                group,
                 weight: 1.0,
             });
         }
+    }
+    if sorted {
         return;
     }
+    coupling.start(law.stiffness, law.damping);
+    order.clear();
+    order.extend(members.drain(..).map(|member| member.mode));
     order.sort_by(|&a, &b| {
         (omega2[a].total_cmp(&omega2[b])).then(damping[a].total_cmp(&damping[b]))
     });

@@ -20,7 +20,8 @@ pub struct Jet {
     pub third: f64,
     /// Bounds of the fast part, of its slope and of its curvature over the cell.
     pub rest: [f64; 3],
-    /// Bound of the rounding of a value.
+    /// Bound of the rounding of a value and of the parabola, and of r times a slope's and r^2 times
+    /// a curvature's.
     pub rounding: f64,
 }
 
@@ -37,7 +38,7 @@ pub struct Jets {
     pub third: f64,
     /// Bounds of the fast part, of its slope and of its curvature over all eight cells.
     pub rest: [f64; 3],
-    /// Bound of the rounding of a value.
+    /// Bound of the rounding, as in a [`Jet`].
     pub rounding: f64,
 }
 
@@ -49,8 +50,8 @@ impl Jets {
         let value = Lanes::<I>::of_block(&self.values);
         let slope = Lanes::<I>::of_block(&self.slopes);
         let curvature = Lanes::<I>::of_block(&self.curvatures);
-        let spreads = spreads(self.third, self.rest, r);
         let rounding = self.rounding;
+        let spreads = spreads(self.third, self.rest, rounding, r);
         let twice = Lanes::<I>::of(2.0);
         let radius = Lanes::<I>::of(r);
         let turn = curvature * radius;
@@ -86,13 +87,14 @@ impl Jets {
 }
 
 /// What value, slope and curvature of a guard may differ by from those of the parabola, on a cell
-/// of half-width r.
+/// of half-width r. With the rounding of slope and curvature, but not of the value.
 #[inline(always)]
-fn spreads(third: f64, [value, slope, curvature]: [f64; 3], r: f64) -> [f64; 3] {
+fn spreads(third: f64, [value, slope, curvature]: [f64; 3], rounding: f64, r: f64) -> [f64; 3] {
+    let of_slope = rounding / r;
     [
         third * (r * r * r / 6.0) + value,
-        third * (0.5 * r * r) + slope,
-        third * r + curvature,
+        third * (0.5 * r * r) + slope + of_slope,
+        third * r + curvature + of_slope / r,
     ]
 }
 
@@ -113,7 +115,7 @@ impl Jet {
     /// Judges a cell of half-width r that is not clear.
     #[inline(always)]
     pub fn verdict(&self, r: f64) -> Verdict {
-        let spreads = spreads(self.third, self.rest, r);
+        let spreads = spreads(self.third, self.rest, self.rounding, r);
         let turn = self.curvature * r;
         if -self.slope > turn.abs() + spreads[1] || -self.curvature > spreads[2] {
             let end = self.value + self.slope * r + 0.5 * turn * r;
@@ -137,7 +139,7 @@ impl Jet {
     }
 
     /// Judges the first cell of a phase, of width h, for a guard that starts at zero; this jet
-    /// stands at the left end, its slope holding the fast part too.
+    /// stands at the left end, its slope, less its rounding, holding the fast part too.
     #[inline(always)]
     pub fn departs(&self, h: f64) -> bool {
         let Self {
@@ -151,7 +153,8 @@ impl Jet {
         let size = self.slope.abs() * h
             + 0.5 * (self.curvature.abs() + rest[2]) * h * h
             + third * h * h * h / 6.0;
-        end > 0.0 || size <= rounding
+        // The curvature is off by 4 rounding/h^2 at most.
+        end > 2.0 * rounding / h || size <= rounding
     }
 }
 

@@ -296,8 +296,10 @@ impl Phases {
         self.turn::<I>(phase, t, work);
         work.position.resize(spectrum.combinations, 0.0);
         work.velocity.resize(spectrum.combinations, 0.0);
-        spectrum.group_sums::<I>(&work.z, &mut work.position);
-        spectrum.group_sums::<I>(&work.rate, &mut work.velocity);
+        spectrum.group_sums::<I>(
+            [&work.z, &work.rate],
+            [&mut work.position, &mut work.velocity],
+        );
         for (position, rest) in work.position.iter_mut().zip(&spectrum.at_rest) {
             *position += rest;
         }
@@ -426,8 +428,10 @@ impl Workspace {
             let rate = cluster.rate(&cluster.columns(&self.z));
             cluster.put(&rate, &mut self.rate);
         }
-        spectrum.group_sums::<I>(&self.z, &mut self.given_position);
-        spectrum.group_sums::<I>(&self.rate, &mut self.given_velocity);
+        spectrum.group_sums::<I>(
+            [&self.z, &self.rate],
+            [&mut self.given_position, &mut self.given_velocity],
+        );
         let (mut worst, mut worst_rate) = (0.0f64, 0.0f64);
         for (lack, given) in self.lack_position.iter_mut().zip(&self.given_position) {
             *lack -= given;

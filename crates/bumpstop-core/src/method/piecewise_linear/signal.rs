@@ -66,8 +66,18 @@ pub(crate) struct Signal {
     remaining: f64,
     /// `sum |b| |lambda|^n`
     totals: [f64; 3],
+    growth: Growth,
     /// `Re sum b lambda^n`
     at_start: [f64; 3],
+}
+
+/// What grows of a signal.
+#[derive(Debug, Clone, Copy, Default)]
+struct Growth {
+    /// `sum |b| |lambda|^n` over the exponents that grow.
+    totals: [f64; 2],
+    /// The fastest rate, in 1/s; zero where nothing grows.
+    rate: f64,
 }
 
 /// Where the walk stands: exponentials at one instant after the start of the phase.
@@ -117,6 +127,10 @@ impl Signal {
         let sums = Lanes::totals([a, b, c, d, e, f, zero, zero]);
         self.totals = [sums[0], sums[1], sums[2]];
         self.at_start = [sums[3], sums[4], sums[5]];
+        self.growth = Growth::default();
+        if spectrum.grows {
+            self.measure_growth(spectrum);
+        }
         self.clustered.set(&spectrum.clusters, views, function);
         (self.clustered).add_sizes(phases, phase, &mut self.totals);
         for (coordinate, view) in views.iter().enumerate().take(COORDINATES) {
@@ -176,6 +190,30 @@ impl Signal {
         }
     }
 
+    #[cold]
+    fn measure_growth(&mut self, spectrum: &Spectrum) {
+        for (terms, (lambda, modulus)) in
+            (self.terms.iter()).zip(spectrum.lambda.iter().zip(&spectrum.moduli))
+        {
+            for lane in 0..LANES {
+                if lambda.re[lane] > 0.0 {
+                    let size = terms.size.0[lane];
+                    self.growth.totals[0] += size;
+                    self.growth.totals[1] += size * modulus.0[lane];
+                    self.growth.rate = self.growth.rate.max(lambda.re[lane]);
+                }
+            }
+        }
+    }
+
+    /// What the growth since the start adds to the rounding, for the given bound of that of a sum.
+    #[cold]
+    fn rounding_of_growth(&self, sum: f64, t: f64) -> f64 {
+        let [size, rate] = self.growth.totals;
+        let growth = Number::exp(self.growth.rate * t) - 1.0;
+        growth * (sum * size + f64::EPSILON * rate * t)
+    }
+
     /// Coefficients of the polynomial part.
     pub(crate) fn polynomial(&self) -> &[f64] {
         self.polynomial.terms()
@@ -185,13 +223,15 @@ impl Signal {
     #[inline(always)]
     pub(crate) fn rounding(&self, t: f64) -> f64 {
         let polynomial = self.polynomial.size(t);
-        let terms = 0.5 * f64::EPSILON * (LANES * self.terms.len()) as f64;
-        let exponentials =
-            (ROUNDING + terms) * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t;
-        if self.resonances.is_empty() {
-            return exponentials;
+        let sum = ROUNDING + 0.5 * f64::EPSILON * (LANES * self.terms.len()) as f64;
+        let mut bound = sum * (self.totals[0] + polynomial) + f64::EPSILON * self.totals[1] * t;
+        if self.growth.rate > 0.0 {
+            bound += self.rounding_of_growth(sum, t);
         }
-        exponentials + self.rounding_of_resonances(t)
+        if !self.resonances.is_empty() {
+            bound += self.rounding_of_resonances(t);
+        }
+        bound
     }
 
     /// Sum of the sizes of its terms up to time t: how far it may go.
@@ -230,6 +270,8 @@ impl Signal {
             }
         }
         rate.polynomial = self.polynomial.derivative();
+        rate.growth = Growth::default();
+        rate.measure_growth(spectrum);
         rate.clustered = self.clustered.derivative(&spectrum.clusters);
         (rate.clustered).add_sizes(phases, phase, &mut rate.totals);
         for special in &mut rate.specials {
@@ -415,21 +457,24 @@ impl Signal {
         values
     }
 
-    /// One of value, slope and curvature alone.
+    /// Value, slope or curvature, by the order, `t` after the start of the phase.
     #[inline(always)]
-    pub(crate) fn derivative_value<I: Instructions>(
+    pub(crate) fn at<I: Instructions>(
         &self,
         order: usize,
         phases: &Phases,
         phase: Phase,
-        at: &Instant<'_>,
+        t: f64,
     ) -> f64 {
+        let time = Lanes::<I>::of(t);
         let mut sum = Lanes::<I>::of(0.0);
-        for (terms, e) in self.terms.iter().zip(at.exponentials) {
-            sum = terms.of[order].lanes().add_real_product(e.lanes(), sum);
+        let exponents = &phases.spectra[phase.spectrum].lambda;
+        for (terms, lambda) in self.terms.iter().zip(exponents) {
+            let exponential = lambda.lanes().scale(time).exp();
+            sum = (terms.of[order].lanes()).add_real_product(exponential, sum);
         }
         let mut values = [0.0; 3];
-        self.add_others(phases, phase, at.time, &mut values);
+        self.add_others(phases, phase, t, &mut values);
         sum.total() + values[order]
     }
 

@@ -524,26 +524,37 @@ impl Spectrum {
         }
     }
 
-    /// `Re sum_j shape_gj z_j` over the coupled exponents, for all groups.
+    /// `Re sum_j shape_gj z_j` over the coupled exponents, for all groups, and the same of rates.
     #[inline(always)]
-    pub(crate) fn group_sums<I: Instructions>(&self, z: &[ComplexBlock], to: &mut [f64]) {
-        let z = &z[..self.coupled_width];
-        let mut shapes = self.vectors.rows(0, self.groups);
-        for to in to[..self.groups].chunks_mut(LANES) {
+    pub(crate) fn group_sums<I: Instructions>(
+        &self,
+        [z, rate]: [&[ComplexBlock]; 2],
+        [to, to_rate]: [&mut [f64]; 2],
+    ) {
+        let (z, rate) = (&z[..self.coupled_width], &rate[..self.coupled_width]);
+        let mut shapes = self.shapes();
+        let to = to[..self.groups].chunks_mut(HALF);
+        for (to, to_rate) in to.zip(to_rate[..self.groups].chunks_mut(HALF)) {
             let mut sums = [Lanes::<I>::of(0.0); LANES];
-            for (sum, shape) in sums.iter_mut().zip(shapes.by_ref().take(to.len())) {
-                let mut total = Lanes::<I>::of(0.0);
-                for (shape, z) in shape.iter().zip(z) {
-                    total = shape.lanes().add_real_product(z.lanes(), total);
+            let (positions, velocities) = sums.split_at_mut(HALF);
+            let pairs = positions.iter_mut().zip(velocities);
+            for ((position, velocity), shape) in pairs.zip(shapes.by_ref().take(to.len())) {
+                for (shape, (z, rate)) in shape.iter().zip(z.iter().zip(rate)) {
+                    let shape = shape.lanes();
+                    *position = shape.add_real_product(z.lanes(), *position);
+                    *velocity = shape.add_real_product(rate.lanes(), *velocity);
                 }
-                *sum = total;
             }
-            for (to, total) in to.iter_mut().zip(Lanes::totals(sums)) {
-                *to = total;
+            let totals = Lanes::totals(sums);
+            for (i, (to, to_rate)) in to.iter_mut().zip(to_rate).enumerate() {
+                (*to, *to_rate) = (totals[i], totals[HALF + i]);
             }
         }
     }
 }
+
+/// Half of the lanes.
+const HALF: usize = LANES / 2;
 
 /// A motion by itself. One without stiffness under a load that takes longer than the run for a
 /// turn is followed by its Taylor series.

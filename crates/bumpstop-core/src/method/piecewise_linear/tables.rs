@@ -9,7 +9,7 @@ pub(crate) const CELLS: usize = LANES;
 
 /// Exponents with `|lambda| r` below this are followed by their Taylor polynomial over a cell of
 /// half-width r, faster ones are bounded by their size: both cost about the same here.
-const FOLLOWED: f64 = 1.2;
+pub(crate) const FOLLOWED: f64 = 1.2;
 
 /// An exponent that is followed over the cells of a level.
 #[derive(Debug, Clone)]

@@ -2,8 +2,7 @@
 
 use super::PhaseRecord;
 use crate::law::Affine;
-use crate::method::piecewise_linear::rows::ComplexBlock;
-use crate::method::piecewise_linear::signal::{Instant, Signal};
+use crate::method::piecewise_linear::signal::Signal;
 use crate::method::piecewise_linear::view::View;
 use crate::number::{Instructions, Vectorised};
 use std::cell::Cell;
@@ -22,7 +21,6 @@ struct Reader {
     view: [View; 1],
     signal: Signal,
     combined: Vec<f64>,
-    exponentials: Vec<ComplexBlock>,
 }
 
 thread_local! {
@@ -38,29 +36,26 @@ impl Vectorised for Projection<'_> {
     fn run<I: Instructions>(self) -> Vec<f64> {
         let phases = &self.record.phases;
         let mut reader = READER.take().unwrap_or_default();
-        let mut present = None;
+        let Reader {
+            view,
+            signal,
+            combined,
+        } = &mut *reader;
         let mut values = Vec::with_capacity(self.times.len());
+        // The present phase, and when it starts and ends.
         let mut number = 0;
+        let (mut from, mut until) = (f64::INFINITY, f64::NEG_INFINITY);
         for time in self.times {
-            number = self.record.phase_from(number, *time);
-            let phase = phases.list[number];
-            let spectrum = &phases.spectra[phase.spectrum];
-            let Reader {
-                view,
-                signal,
-                combined,
-                exponentials,
-            } = &mut *reader;
-            if present != Some(number) {
-                view[0].set::<I>(spectrum, self.row, combined);
+            if !(from <= *time && *time < until) {
+                number = self.record.phase_from(number, *time);
+                let phase = phases.list[number];
+                from = phase.start;
+                until = (phases.list.get(number + 1)).map_or(f64::INFINITY, |next| next.start);
+                view[0].set::<I>(&phases.spectra[phase.spectrum], self.row, combined);
                 signal.set::<I>(phases, phase, view, &COORDINATE, self.record.duration);
-                exponentials.resize(spectrum.lambda.len(), ComplexBlock::ZERO);
-                present = Some(number);
             }
-            let time = time - phase.start;
-            spectrum.exponentials::<I>(time, exponentials);
-            let at = Instant { time, exponentials };
-            values.push(signal.derivative_value::<I>(self.order, phases, phase, &at));
+            let phase = phases.list[number];
+            values.push(signal.at::<I>(self.order, phases, phase, time - from));
         }
         READER.set(Some(reader));
         values
