@@ -27,7 +27,7 @@ from bumpstop import (
     PointMass,
     Problem,
     Rectangle,
-    RigidRotation,
+    RigidTranslation,
     Rotation,
     Spring,
     Stop,
@@ -209,7 +209,7 @@ def test_a_stop_on_a_part_is_hit_as_on_the_whole_structure(bay: Bay) -> None:
                 Gravity("weight", acceleration=(0, -9.81, 0)),
                 NodalForce("push", node=tip, force=(0, -20, 0), moment=(0, 0, 3)),
             ],
-            initial=RigidRotation(about="A" if tip == "B" else "left.A", rate=(0, 0, -0.5)),
+            initial=RigidTranslation((0, -0.5, 0), nodes=tip),
             duration=0.2,
             gauges=[Gauge("gauge", beam=beam, at=1.2 if tip == "B" else 0.2, fibre=(0.03, 0.0))],
         )
