@@ -128,7 +128,11 @@ class Response:
 
     @property
     def energy_residual(self) -> float:
-        """Largest imbalance of the energy ledger relative to the largest energy seen."""
+        """Largest imbalance of the energy ledger relative to the largest energy seen.
+
+        Looked at after each step, or for the exact method at the switches and at the end of
+        the run; between switches `energy` has it at any instant.
+        """
         return self.history.energy_residual()
 
     def at(self, times: ArrayLike) -> Response:

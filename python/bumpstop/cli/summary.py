@@ -10,6 +10,7 @@ from typing import Any
 
 from bumpstop.cli.console import Table, print_line, print_table
 from bumpstop.cli.solve import CaseResult, VariantResult
+from bumpstop.post.energy import residual_told
 from bumpstop.post.references import Check
 from bumpstop.report.words import title_of
 from bumpstop.response import Response
@@ -67,7 +68,7 @@ def _how(numbers: dict[str, Any]) -> str:
     return (
         f"method {numbers['method']}, {_many(numbers['steps'], 'step')}, "
         f"{_many(numbers['events'], 'event')}, {_many(numbers['impacts'], 'impact')}, "
-        f"energy residual {numbers['energy_residual']:.1e}, "
+        f"energy residual {residual_told(numbers['energy_residual'])}, "
         f"solved in {_duration(numbers['solve_seconds'])}"
     )
 

@@ -240,6 +240,6 @@ def _provenance(response: Response) -> dict[str, Any]:
         "missed_penetration": response.missed_penetration,
         "motion_error": response.motion_error,
         "event_count": response.event_count,
-        "energy_residual": response.energy_residual,
+        "relative_energy_residual": response.energy_residual,
         "solve_seconds": response.solve_seconds,
     }

@@ -5,6 +5,8 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
+from bumpstop.post.energy import residual_told
+
 if TYPE_CHECKING:
     from bumpstop.response import Response
 
@@ -25,7 +27,7 @@ def response_card(response: Response) -> str:
         "method": method,
         "steps": f"{response.steps:,}",
         "impacts": str(len(response.impact_table()["start"])),
-        "energy residual": f"{response.energy_residual:.1e}",
+        "energy residual": residual_told(response.energy_residual),
         "solved in": f"{response.solve_seconds * 1e3:.3g} ms",
     }
     body = "".join(_row(label, value) for label, value in rows.items())

@@ -15,7 +15,11 @@ if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
     from bumpstop.response import Response
 
-__all__ = ["Ledger", "energy_dataset", "ledger"]
+__all__ = ["LEAST_TOLD", "Ledger", "energy_dataset", "ledger", "residual_told"]
+
+LEAST_TOLD = 1e-15
+"""Residuals below this are told as less than it: two sums that happen to agree to the last
+digit make them zero, which says no more."""
 
 
 class Ledger(NamedTuple):
@@ -65,6 +69,17 @@ def ledger(response: Response, times: FloatArray) -> Ledger:
         terms={name: values[1:] for name, values in terms.items()},
         stops={name: values[1:] for name, values in stops.items()},
     )
+
+
+def residual_told(residual: float) -> str:
+    """Return the energy residual of a response as people are told it.
+
+    Examples
+    --------
+    >>> residual_told(0.0), residual_told(3.14e-9)
+    ('< 1e-15', '3.1e-09')
+    """
+    return f"{residual:.1e}" if residual >= LEAST_TOLD else f"< {LEAST_TOLD:.0e}"
 
 
 def energy_dataset(response: Response) -> xr.Dataset:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from bumpstop.report.balance import ledger_instants, residual_told
 from bumpstop.report.curves import MOST_POINTS, contact_spans, instants, thin
 from bumpstop.report.palette import LIGHT
 from bumpstop.report.plotting import (
@@ -22,7 +23,7 @@ from bumpstop.report.plotting import (
     line_trace,
     whole_run,
 )
-from bumpstop.report.scales import percent, power_of_ten, scale_for
+from bumpstop.report.scales import percent, scale_for
 from bumpstop.report.stops import fixed_stops
 from bumpstop.report.words import title_of, unit_of
 
@@ -144,8 +145,8 @@ def energy_ledger(response: Response) -> Figure:
     name = "Initial + work put in" if works else "Initial energy"
     total = line_trace(x, energy.scaled(given), name, "total", energy)
     total["line"] |= {"dash": "dash", "width": 1.5}
-    residual = power_of_ten(response.energy_residual)
-    subtitle = f"The ledger closes to {residual} of the largest energy"
+    residual = residual_told(response.energy_residual, "less than")
+    subtitle = f"Closes to {residual} of the largest energy, {ledger_instants(response)}"
     layout = layout_of("Energy", time, energy, subtitle)
     layout["xaxis"] |= whole_run(response, time)
     layout["legend"]["traceorder"] = "normal"

@@ -10,6 +10,7 @@ import numpy as np
 from bumpstop.laws import Stop
 from bumpstop.modal.basis import COMBINATION
 from bumpstop.quantities import IMPACTS
+from bumpstop.report.balance import ledger_instants, residual_told
 from bumpstop.report.published import deviation_told, tolerance_told, verdict, worst
 from bumpstop.report.scales import percent, power_of_ten, scale_for, significant, with_unit
 from bumpstop.report.summary import Row, basis_rows, method_words, model_rows
@@ -62,7 +63,9 @@ def facts(
     if proved and len(proved) == len(bounds):
         told.append(("Missed contacts", "none", f"deeper than {power_of_ten(max(proved))} m"))
     residual = max(response.energy_residual for response in responses.values())
-    told.append(("Energy residual", power_of_ten(residual), "of the largest energy"))
+    moments = {ledger_instants(response) for response in responses.values()}
+    note = ", ".join(["of the largest energy", *(moments if len(moments) == 1 else ())])
+    told.append(("Energy residual", residual_told(residual), note))
     runs = len(responses)
     seconds = with_unit(sum(solve_seconds.values()), "s", 3)
     told.append(("Solved in", seconds, f"core time, {runs} runs" if runs > 1 else "core time"))
@@ -141,7 +144,7 @@ def overview(
                     f"{response.event_count:,}",
                     f"{len(table['start']):,}",
                     with_unit(float(forces.max()), "N") if forces.size else "–",
-                    power_of_ten(response.energy_residual),
+                    residual_told(response.energy_residual),
                     with_unit(solve_seconds[name], "s", 3),
                     "–" if furthest is None else _of_tolerance(furthest),
                 ],
