@@ -262,7 +262,8 @@ class TestLabels:
         assert array["mode"].values.tolist() == [1]
         assert array["frequency"].attrs["units"] == "Hz"
         np.testing.assert_array_equal(array.sel(mode=1), bounce.sample("modal_displacement", 1))
-        for one in (np.int64(1), np.uint8(1)):
+        ones: tuple[Any, ...] = (np.int64(1), np.uint8(1))
+        for one in ones:
             np.testing.assert_array_equal(
                 array.sel(mode=1), bounce.sample("modal_displacement", one)
             )
