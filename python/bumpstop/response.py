@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 from numbers import Integral
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, SupportsIndex
 
 import numpy as np
 
@@ -160,7 +160,7 @@ class Response:
         return self.history.motion(self._instants(times), derivative)
 
     def sample(
-        self, quantity: str, *target: str | int, times: ArrayLike | None = None
+        self, quantity: str, *target: str | SupportsIndex, times: ArrayLike | None = None
     ) -> FloatArray:
         """Return a quantity over time as a plain array.
 
@@ -372,13 +372,14 @@ class Response:
         gauges = {known.name: known for known in self.problem.gauges}
         return self.problem.basis.gauge_row(gauges[one_of("gauge", gauge, tuple(gauges))])
 
-    def _mode_index(self, mode: str | int) -> int:
+    def _mode_index(self, mode: str | SupportsIndex) -> int:
         modes = len(self.problem.basis.labels)
         # numpy counts in integers of its own; True is no number of a mode.
         whole = isinstance(mode, Integral) and not isinstance(mode, bool)
-        if not whole or not 1 <= int(mode) <= modes:
+        number = int(mode) if whole else 0
+        if not 1 <= number <= modes:
             raise InputError(f"must be a mode from 1 to {modes}", key="mode", value=mode)
-        return int(mode) - 1
+        return number - 1
 
     def _nodal(self, quantity: str, node: str, dof: str) -> xr.DataArray:
         return over_time(
@@ -409,7 +410,7 @@ def _checked_times(times: ArrayLike, duration: float) -> FloatArray:
     return instants
 
 
-def _check_target(quantity: str, target: tuple[str | int, ...]) -> None:
+def _check_target(quantity: str, target: tuple[str | SupportsIndex, ...]) -> None:
     wanted = QUANTITIES[quantity].target
     if len(target) == len(wanted) or (wanted == ("mode",) and not target):
         return

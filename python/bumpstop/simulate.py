@@ -89,7 +89,7 @@ def simulate(
     _check_options(chosen, unknown, dt=dt, beyond_stability_limit=beyond_stability_limit or None)
     _refuse_coupled_modes(chosen, problem)
     _refuse_rigid_stops(chosen, problem)
-    model = _model(problem)
+    model = _model(chosen, problem)
     step = _checked_step(chosen, dt, problem.duration, model, beyond_stability_limit)
     try:
         history = _core.simulate(
@@ -105,9 +105,21 @@ def simulate(
             progress,
         )
     except _core.CoreError as error:
+        _blame_scale(chosen, problem, error)
         raise ComputationError(f"the {chosen} method could not finish: {error}") from error
     options = {} if step is None else {"dt": step}
     return Response(problem, history, times=problem.times, method_reason=reason, options=options)
+
+
+def _blame_scale(method: str, problem: Problem, error: Exception) -> None:
+    """Raise where a number out of scale is what the exact method stumbled over."""
+    if method != "exact":
+        return
+    from bumpstop.scale import out_of_scale
+
+    blamed = out_of_scale(problem)
+    if blamed is not None:
+        raise blamed from error
 
 
 def _choose(method: str) -> tuple[str, str]:
@@ -156,10 +168,11 @@ def _refuse_rigid_stops(method: str, problem: Problem) -> None:
                 )
 
 
-def _model(problem: Problem) -> CanonicalForm:
+def _model(method: str, problem: Problem) -> CanonicalForm:
     try:
         model = canonical_form(problem)
-    except _core.CoreError as error:
+    except (_core.CoreError, FloatingPointError) as error:
+        _blame_scale(method, problem, error)
         raise InputError(str(error), key="problem") from error
     with np.errstate(over="ignore"):
         energy = model.velocity @ model.velocity

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import bumpstop as bs
@@ -318,10 +319,53 @@ def test_memory_that_does_not_suffice_is_status_3(
     assert error == "error: not enough memory; take fewer samples, elements or modes\n"
 
 
-def test_numbers_that_overflow_are_status_3(call: Output, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("written", "instead", "told"),
+    [
+        (
+            "stiffness = 18e3",
+            "stiffness = 1e20",
+            "stops.spring.stiffness: is 1.2e+13 times that of the stiffest mode there, "
+            "more than double precision can hold apart (got 1e+20); check the units",
+        ),
+        (
+            "stiffness = 18e3",
+            "stiffness = 18e3\ndamping = 1e8",
+            "stops.spring.damping: is 3.6e+05 times critical",
+        ),
+        ("damping = 0.01 ", "damping = 1e5 ", "basis.damping: is 1e+05 times critical"),
+        ("damping = 0.01 ", "damping = 1e308 ", "basis.damping: is 1e+308 times critical"),
+        (
+            "young_modulus = 67e9",
+            "young_modulus = 1e300",
+            "basis: has a mode that turns through 2.3e+147 rad in the run",
+        ),
+        (
+            "young_modulus = 67e9",
+            "young_modulus = 1e-10",
+            "stops.spring.stiffness: is 1.5e+18 times that of the stiffest mode there",
+        ),
+    ],
+)
+def test_numbers_out_of_scale_are_status_2(
+    written: str, instead: str, told: str, call: Output, tmp_path: Path
+) -> None:
+    text = SDNL32.read_text().partition("[variants")[0]
+    assert written in text
     file = tmp_path / "case.toml"
-    file.write_text(SDNL32.read_text().replace("damping = 0.01 ", "damping = 1e308 "))
-    status, output, error = call("run", str(file))
+    file.write_text(text.replace(written, instead), encoding="utf-8")
+    status, output, error = call("run", str(file), "--method", "exact")
+    assert (status, output) == (2, "")
+    assert error.startswith(f"error: {file}: {told}")
+    assert error.count("\n") == 1
+
+
+def test_numbers_that_overflow_are_status_3(call: Output, monkeypatch: pytest.MonkeyPatch) -> None:
+    def overflow(*_arguments: object, **_options: object) -> None:
+        np.float64(1e300) * np.float64(1e300)
+
+    monkeypatch.setattr("bumpstop.cli.solve.simulate", overflow)
+    status, output, error = call(*RUN)
     assert (status, output) == (3, "")
     assert "too large or too small to compute with" in error
     assert error.count("\n") == 1

@@ -118,6 +118,6 @@ def _located(case: Case, variant: str) -> Iterator[None]:
 
 def _key(argument: str | None) -> str:
     """Return where in the file an argument of `simulate` stands; a whole path stays."""
-    if argument == "initial" or (argument and "." in argument):
+    if argument in ("initial", "basis") or (argument and "." in argument):
         return argument
     return f"run.{argument}" if argument else "run"

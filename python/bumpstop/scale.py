@@ -1,0 +1,90 @@
+"""Which number of a problem is out of scale, where the exact method could not finish.
+
+Exponents of one motion that are many orders of magnitude apart cannot be told from each other
+in double precision. How many depends on the problem, so nothing is refused beforehand: these
+limits only say what to blame once a run has failed. They stand a little below the least
+ratios at which runs of validation cases fail.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from bumpstop.errors import InputError
+
+if TYPE_CHECKING:
+    from bumpstop.arguments import FloatArray
+    from bumpstop.problem import Law, Problem
+
+__all__ = ["out_of_scale"]
+
+STIFFEST = 1e10
+"""Stiffness of a law beside that of the stiffest mode where it acts."""
+MOST_DAMPED = 1e3
+"""Ratio of critical damping of a mode, or of a law's damper beside the fastest motion."""
+FASTEST = 1e9
+"""Angle in rad through which a mode turns in a run."""
+CRITICAL = "is {:.2g} times critical"
+
+
+class _Finding(NamedTuple):
+    key: str
+    value: object
+    ratio: float
+    limit: float
+    what: str
+    hint: str
+
+
+def out_of_scale(problem: Problem) -> InputError | None:
+    """Return what to tell of the number that is furthest out of scale, or None.
+
+    Examples
+    --------
+    >>> import bumpstop as bs
+    >>> basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    >>> wall = bs.Stop("wall", node="P", normal=(1, 0, 0), stiffness=1e30)
+    >>> print(out_of_scale(bs.Problem(basis, laws=[wall], duration=1.0)))
+    stops.wall.stiffness: is 2.5e+28 times that of the stiffest mode there, more than double \
+precision can hold apart (got 1e+30); check the units of the law and of the structure
+    """
+    with np.errstate(all="ignore"):
+        found = [each for each in _findings(problem) if not each.ratio <= each.limit]
+    if not found:
+        return None
+    worst = max(found, key=lambda each: each.ratio / each.limit)
+    what = f"{worst.what.format(worst.ratio)}, more than double precision can hold apart"
+    return InputError(what, key=worst.key, value=worst.value, hint=worst.hint)
+
+
+def _findings(problem: Problem) -> Iterator[_Finding]:
+    basis = problem.basis
+    stiffest = float(np.abs(basis.omega2).max())
+    for law in problem.laws:
+        yield from _of_law(law, law.coordinate.row(basis), stiffest)
+    ratio = float(np.abs(basis.damping_ratio).max())
+    hint = "it is a ratio of critical damping, not a percentage"
+    yield _Finding("basis.damping", ratio, ratio, MOST_DAMPED, CRITICAL, hint)
+    fastest = float(np.sqrt(stiffest))
+    what = "has a mode that turns through {:.2g} rad in the run"
+    hint = "check the units of the structure and the duration"
+    told = f"{fastest / (2.0 * np.pi):.3g} Hz"
+    yield _Finding("basis", told, fastest * problem.duration, FASTEST, what, hint)
+
+
+def _of_law(law: Law, row: FloatArray, stiffest: float) -> Iterator[_Finding]:
+    """Compare the spring and the damper of a law, where it has them, with the modes there."""
+    yields = float(row @ row)
+    where = f"{law.table}.{law.name}"
+    hint = "check the units of the law and of the structure"
+    stiffness, damping = (getattr(law, key, None) for key in ("stiffness", "damping"))
+    own = float(np.max(stiffness)) * yields if stiffness is not None else 0.0
+    if stiffest:
+        what = "is {:.2g} times that of the stiffest mode there"
+        yield _Finding(f"{where}.stiffness", stiffness, own / stiffest, STIFFEST, what, hint)
+    if damping is not None and (own or stiffest):
+        ratio = damping * yields / float(np.sqrt(max(own, stiffest)))
+        yield _Finding(f"{where}.damping", damping, ratio, MOST_DAMPED, CRITICAL, hint)
