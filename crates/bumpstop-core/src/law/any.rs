@@ -137,6 +137,21 @@ impl Law for AnyLaw {
         ask!(self, law => law.guard(state, index))
     }
 
+    #[inline(always)]
+    fn is_curved(&self, state: State, index: usize) -> bool {
+        ask!(self, law => law.is_curved(state, index))
+    }
+
+    fn guard_value<T: Number>(
+        &self,
+        state: State,
+        index: usize,
+        position: &Local<T>,
+        velocity: &Local<T>,
+    ) -> T {
+        ask!(self, law => law.guard_value(state, index, position, velocity))
+    }
+
     fn next_state(
         &self,
         state: State,

@@ -101,8 +101,8 @@ pub struct Constraint {
 /// A function of the local motion that is positive while a state lasts.
 ///
 /// Affine guards are all that piecewise-linear laws need; their derivatives and bounds follow
-/// from those of the local coordinates. Curved guards (circle, friction cone) will be further
-/// variants that hand the same [`crate::method::piecewise_linear::Jet`] to the same walk.
+/// from those of the local coordinates. Curved ones (circle, friction cone) are made of these by
+/// [`Law::guard_value`], with derivatives and bounds by the arithmetic of enclosures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guard {
     /// Name for the list of events.
@@ -149,6 +149,25 @@ pub trait Law: Clone + Send + Sync {
 
     /// One of a state's guards.
     fn guard(&self, state: State, index: usize) -> Guard;
+
+    /// Whether a guard is curved: no affine function of the local motion. Its value is then
+    /// [`Law::guard_value`], and [`Guard::function`] is not looked at.
+    #[inline(always)]
+    fn is_curved(&self, _state: State, _index: usize) -> bool {
+        false
+    }
+
+    /// The value of a guard. From enclosures of the local motion on a cell of time it makes one of
+    /// the guard, which is how the exact method sees curved guards.
+    fn guard_value<T: Number>(
+        &self,
+        state: State,
+        index: usize,
+        position: &Local<T>,
+        velocity: &Local<T>,
+    ) -> T {
+        self.guard(state, index).function.at(position, velocity)
+    }
 
     /// The state that follows when a guard has reached zero. `motion` tells the local motion at
     /// that instant, at some cost.

@@ -1,8 +1,9 @@
 //! The certified walk: from the start of a phase to the first instant at which a guard reaches
 //! zero, by cells on which the jets prove that none does, eight at once.
 
-use super::bracket::{Bracket, Probe};
+use super::bracket::{Bracket, Probe, Watched};
 use super::cells::{Cells, Moved, Seen};
+use super::curved::CurvedGuards;
 use super::jet::{Jet, Verdict};
 use super::phase::{Phase, Phases};
 use super::rows::{ComplexBlock, RealBlock};
@@ -70,15 +71,28 @@ pub(crate) struct Walk {
 pub(crate) struct Path<'a> {
     pub phases: &'a Phases,
     pub phase: Phase,
-    /// The guards, and how each starts.
+    /// The guards, the affine ones first, and how each starts.
     pub signals: &'a [Signal],
+    pub curved: CurvedGuards<'a>,
     pub starts: &'a [Start],
     /// Where the walk begins and ends, in s since the start of the phase.
     pub from: f64,
     pub limit: f64,
 }
 
-impl Path<'_> {
+impl<'a> Path<'a> {
+    /// One of the guards.
+    #[inline(always)]
+    fn guard(&self, watched: usize) -> Watched<'a> {
+        match self.signals.get(watched) {
+            Some(signal) => Watched::Affine(signal),
+            None => {
+                let CurvedGuards { list, functions } = self.curved;
+                Watched::Curved(&list[watched - self.signals.len()], functions)
+            }
+        }
+    }
+
     #[inline(always)]
     fn spectrum(&self) -> &Spectrum {
         &self.phases.spectra[self.phase.spectrum]
@@ -192,6 +206,9 @@ impl Walk {
         for signal in path.signals {
             pace = pace.max(signal.pace(spectrum));
         }
+        for curved in path.curved.list {
+            pace = pace.max(curved.pace(spectrum));
+        }
         let mut level = 0;
         while self.tables.width(level) * pace > FIRST_TURN && level < 1000 {
             level += 1;
@@ -219,13 +236,12 @@ impl Walk {
         level: usize,
         certificate: &mut Certificate,
     ) {
-        let level = (self.tables).level::<I>(path.phase.spectrum, path.spectrum(), level);
         let cells = Cells {
             time,
             limit: path.limit,
             left: &self.left,
             sizes: &self.sizes,
-            level,
+            level: (self.tables).level::<I>(path.phase.spectrum, path.spectrum(), level),
         };
         self.seen.clear();
         for (watched, signal) in path.signals.iter().enumerate() {
@@ -233,6 +249,37 @@ impl Walk {
             certificate.missed = certificate.missed.max(seen.jets.rounding);
             if path.departs(watched, time) {
                 // The first cell has a verdict of its own.
+                seen.clear &= !1;
+            }
+            self.seen.push(seen);
+        }
+        if !path.curved.list.is_empty() {
+            self.look_at_curved(path, time, level, certificate);
+        }
+    }
+
+    /// Looks at the curved guards, behind the affine ones.
+    #[cold]
+    fn look_at_curved(
+        &mut self,
+        path: &Path<'_>,
+        time: f64,
+        level: usize,
+        certificate: &mut Certificate,
+    ) {
+        let motion = (path.phases, path.phase);
+        let cells = Cells {
+            time,
+            limit: path.limit,
+            left: &self.left,
+            sizes: &self.sizes,
+            level: (self.tables).level::<Plain>(path.phase.spectrum, path.spectrum(), level),
+        };
+        for curved in path.curved.list {
+            let functions = path.curved.functions;
+            let mut seen = curved.look(functions, &cells, motion, &mut self.moved);
+            certificate.missed = certificate.missed.max(seen.jets.rounding);
+            if path.departs(self.seen.len(), time) {
                 seen.clear &= !1;
             }
             self.seen.push(seen);
@@ -273,7 +320,7 @@ impl Walk {
     ) -> Outcome {
         let smallest = SMALLEST_CELL * (cell.left + cell.width).max(self.period);
         let mut first: Option<Crossing> = None;
-        for watched in 0..path.signals.len() {
+        for watched in 0..path.starts.len() {
             let departs = path.departs(watched, cell.left);
             let sight = if self.seen[watched].clear >> number & 1 == 1 {
                 Sight::Clear
@@ -324,7 +371,8 @@ impl Walk {
             Verdict::Crosses => Sight::Crosses(bracket),
             Verdict::EndDecides => Sight::EndDecides(bracket),
             Verdict::Convex(curvature) => {
-                match bracket.valley::<I>(&mut self.probe(path, watched), curvature) {
+                let probe = &mut self.probe(path, watched);
+                match bracket.valley::<I>(probe, curvature, jet.rounding) {
                     None => Sight::Clear,
                     Some(before) if before.right < bracket.right => Sight::Crosses(before),
                     Some(after) => Sight::EndDecides(after),
@@ -339,7 +387,7 @@ impl Walk {
         Probe {
             phases: path.phases,
             phase: path.phase,
-            signal: &path.signals[watched],
+            guard: path.guard(watched),
             exponentials: &mut self.probe,
         }
     }
@@ -351,10 +399,13 @@ impl Walk {
             Start::Positive => Sight::Unclear,
             Start::Below => Sight::AtOnce,
             Start::Tangent => self.depart_tangent(path, watched, cell),
-            Start::Zero(known) => {
-                let (signal, seen) = (&path.signals[watched], &self.seen[watched]);
-                self.depart_from_zero(path, signal, seen, known, cell)
-            }
+            Start::Zero(known) => match path.guard(watched) {
+                Watched::Affine(signal) => {
+                    let seen = &self.seen[watched];
+                    self.depart_from_zero(path, signal, seen, known, cell)
+                }
+                Watched::Curved(..) => self.depart_curved(path, watched, cell),
+            },
         }
     }
 
@@ -395,6 +446,28 @@ impl Walk {
         };
         signal.add_clusters_after(phases, phase, cell.left, cell.width, &mut jet);
         if jet.departs(cell.width) {
+            Sight::Clear
+        } else {
+            Sight::Unclear
+        }
+    }
+
+    /// The first cell of a curved guard that starts at zero.
+    #[cold]
+    fn depart_curved(&self, path: &Path<'_>, watched: usize, cell: Cell) -> Sight {
+        let Watched::Curved(curved, functions) = path.guard(watched) else {
+            return Sight::Unclear;
+        };
+        let at = Instant {
+            time: cell.left,
+            exponentials: &self.left,
+        };
+        let start = curved.at(functions, path.phases, path.phase, &at);
+        let slope = beyond(start.slope, start.rest[1]);
+        if slope < 0.0 || (slope == 0.0 && beyond(start.curvature, start.rest[2]) < 0.0) {
+            return Sight::AtOnce;
+        }
+        if self.seen[watched].jets.cell(0).rises(0.5 * cell.width) {
             Sight::Clear
         } else {
             Sight::Unclear

@@ -1,5 +1,6 @@
 //! Zeros of a guard inside a bracket, and the least value of a convex one.
 
+use super::curved::{Curved, Functions};
 use super::phase::{Phase, Phases};
 use super::rows::ComplexBlock;
 use super::signal::{Instant, Signal};
@@ -19,11 +20,20 @@ pub(crate) struct Bracket {
     guess: f64,
 }
 
+/// A guard along a phase.
+#[derive(Clone, Copy)]
+pub(crate) enum Watched<'a> {
+    /// A sum of exponentials.
+    Affine(&'a Signal),
+    /// A function of such sums.
+    Curved(&'a Curved, &'a dyn Functions),
+}
+
 /// A guard that can be evaluated at any time.
 pub(crate) struct Probe<'a> {
     pub phases: &'a Phases,
     pub phase: Phase,
-    pub signal: &'a Signal,
+    pub guard: Watched<'a>,
     /// Room for the exponentials.
     pub exponentials: &'a mut [ComplexBlock],
 }
@@ -38,7 +48,30 @@ impl Probe<'_> {
             time,
             exponentials: self.exponentials,
         };
-        self.signal.values::<I>(self.phases, self.phase, &at)
+        match self.guard {
+            Watched::Affine(signal) => signal.values::<I>(self.phases, self.phase, &at),
+            Watched::Curved(curved, functions) => {
+                let jet = curved.at(functions, self.phases, self.phase, &at);
+                [jet.value, jet.slope, jet.curvature]
+            }
+        }
+    }
+
+    /// Bound of the rounding of its value up to a time.
+    #[inline(always)]
+    fn rounding<I: Instructions>(&mut self, time: f64) -> f64 {
+        match self.guard {
+            Watched::Affine(signal) => signal.rounding(time),
+            Watched::Curved(curved, functions) => {
+                let spectrum = &self.phases.spectra[self.phase.spectrum];
+                spectrum.exponentials::<I>(time, self.exponentials);
+                let at = Instant {
+                    time,
+                    exponentials: self.exponentials,
+                };
+                curved.at(functions, self.phases, self.phase, &at).rest[0]
+            }
+        }
     }
 }
 
@@ -56,21 +89,22 @@ impl Bracket {
 
     /// Looks for the least value of a guard that is convex inside, with at least the given
     /// curvature. A negative one ends a bracket; one that is zero to rounding is a touch, after
-    /// which the right end decides.
+    /// which the right end decides. `margin` bounds the rounding of a parabola on the bracket.
     #[inline(always)]
     pub(crate) fn valley<I: Instructions>(
         self,
         probe: &mut Probe<'_>,
         curvature: f64,
+        margin: f64,
     ) -> Option<Self> {
-        let rounding = probe.signal.rounding(self.right);
+        let rounding = probe.rounding::<I>(self.right);
         let (mut low, mut high) = (self.left, self.right);
         let mut t = 0.5 * (low + high);
         for _ in 0..REFINEMENTS {
             let values = probe.values::<I>(t);
             // A convex function lies above every such parabola.
             let least = values[0] - 0.5 * values[1] * values[1] / curvature;
-            if least > rounding {
+            if least > margin {
                 return None;
             }
             if values[0] < -rounding {

@@ -2,6 +2,7 @@
 //! one reaches zero.
 
 use super::advance::{Crossing, Start};
+use super::curved::{Curved, Guards};
 use super::held::Held;
 use super::instant::{self, Moment};
 use super::phase::{Phase, Phases};
@@ -24,6 +25,8 @@ pub(crate) struct Watch {
     /// Law and guard number behind each signal.
     pub guards: Vec<(usize, usize)>,
     pub signals: Vec<Signal>,
+    /// Those that are no signals, behind the others.
+    pub curved: Vec<Curved>,
     pub starts: Vec<Start>,
 }
 
@@ -49,10 +52,16 @@ impl Watch {
         let views = &phases.spectra[phase.spectrum].views;
         self.guards.clear();
         self.starts.clear();
+        self.curved.clear();
+        let mut is_curved = false;
         let mut first_view = 0;
         let remaining = problem.duration - phase.start;
         for (index, law) in problem.laws.iter().enumerate() {
             for number in 0..law.guard_count(states[index]) {
+                if law.is_curved(states[index], number) {
+                    is_curved = true;
+                    continue;
+                }
                 let guard = law.guard(states[index], number);
                 let signal = next_signal(&mut self.signals, self.guards.len());
                 let function = &guard.function;
@@ -91,6 +100,50 @@ impl Watch {
         if let Some(held) = &phases.spectra[phase.spectrum].held {
             self.watch_reactions::<I>(held, phases, phase, remaining);
         }
+        if is_curved {
+            self.watch_curved(problem, phases, phase, fired);
+        }
+    }
+
+    /// The guards that are no signals.
+    #[cold]
+    fn watch_curved<L: Law>(
+        &mut self,
+        problem: &Problem<L>,
+        phases: &Phases,
+        phase: Phase,
+        fired: Option<(usize, Guard)>,
+    ) {
+        let spectrum = &phases.spectra[phase.spectrum];
+        let states = phases.states(phase);
+        let remaining = problem.duration - phase.start;
+        let exponentials = vec![ComplexBlock::ONE; spectrum.lambda.len()];
+        let at = Instant {
+            time: 0.0,
+            exponentials: &exponentials,
+        };
+        let mut first_view = 0;
+        for (index, law) in problem.laws.iter().enumerate() {
+            let views = &spectrum.views[first_view..];
+            for number in 0..law.guard_count(states[index]) {
+                if !law.is_curved(states[index], number) {
+                    continue;
+                }
+                let which = [index, number, law.rows().len()];
+                let curved = Curved::new(which, phases, phase, views, remaining);
+                let start = curved.at(&Guards { problem, states }, phases, phase, &at);
+                let has_fired = fired.is_some_and(|(law, _)| law == index);
+                let zero = if has_fired { JUST_FIRED } else { 1.0 } * start.rest[0];
+                self.starts.push(if start.value > zero {
+                    Start::Positive
+                } else {
+                    Start::Zero(None)
+                });
+                self.guards.push((index, number));
+                self.curved.push(curved);
+            }
+            first_view += law.rows().len();
+        }
     }
 
     /// Reactions must push.
@@ -120,9 +173,13 @@ impl Watch {
 
     /// The signals in use.
     pub(crate) fn active(&self) -> &[Signal] {
-        &self.signals[..self.guards.len()]
+        &self.signals[..self.guards.len() - self.curved.len()]
     }
 }
+
+/// A curved guard of a law that has just switched counts as zero below this many times its
+/// rounding: the instant of a zero is known to rounding, too.
+const JUST_FIRED: f64 = 16.0;
 
 /// The number that the guard of a reaction has instead of a place in its law's list.
 pub(crate) const REACTION: usize = usize::MAX;

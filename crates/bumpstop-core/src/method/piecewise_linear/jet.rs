@@ -72,6 +72,18 @@ impl Jets {
         (ends & !inside) | (vertex & inside) | nothing | rises | (one_way & right)
     }
 
+    /// Takes the jet on one of the cells; bounds over all cells are the largest.
+    pub fn set_cell(&mut self, number: usize, jet: &Jet) {
+        self.values[number] = jet.value;
+        self.slopes[number] = jet.slope;
+        self.curvatures[number] = jet.curvature;
+        self.third = self.third.max(jet.third);
+        self.rounding = self.rounding.max(jet.rounding);
+        for (largest, rest) in self.rest.iter_mut().zip(jet.rest) {
+            *largest = largest.max(rest);
+        }
+    }
+
     /// The jet on one of the cells.
     #[inline(always)]
     pub fn cell(&self, number: usize) -> Jet {
@@ -128,6 +140,17 @@ impl Jet {
             return Verdict::Convex(self.curvature - spreads[2]);
         }
         Verdict::Open
+    }
+
+    /// Whether a guard that starts at zero, with a slope that is not negative there, is positive on
+    /// the rest of a cell of half-width r, around whose middle this jet is.
+    pub fn rises(&self, r: f64) -> bool {
+        let spreads = spreads(self.third, self.rest, self.rounding, r);
+        let turn = self.curvature * r;
+        let end = self.value + self.slope * r + 0.5 * turn * r;
+        self.slope > turn.abs() + spreads[1]
+            || self.curvature > spreads[2]
+            || -self.curvature > spreads[2] && end > spreads[0] + self.rounding
     }
 
     /// Where the parabola through the jet comes down to zero, from the middle of the cell; not a

@@ -12,6 +12,7 @@ mod cells;
 mod cluster;
 mod clustered;
 mod coupled;
+mod curved;
 mod dense;
 mod dissipation;
 mod enclosure;
@@ -51,6 +52,7 @@ use crate::number::{Instructions, Plain, Vectorised, dispatch};
 use crate::problem::Problem;
 use crate::rigid::{Cause, Contacts, Place};
 use advance::{Certificate, Crossing, Path, Walk};
+use curved::{CurvedGuards, Guards};
 use event::Watch;
 use phase::{Phases, Workspace};
 use spectrum::{Secular, Spectrum, Workbench};
@@ -162,10 +164,18 @@ impl<'a, L: Law> Run<'a, L> {
                 [&q, &v],
                 &self.contacts,
             );
+            let functions = Guards {
+                problem,
+                states: &states,
+            };
             let path = Path {
                 phases: &self.phases,
                 phase,
                 signals: self.scratch.watch.active(),
+                curved: CurvedGuards {
+                    list: &self.scratch.watch.curved,
+                    functions: &functions,
+                },
                 starts: &self.scratch.watch.starts,
                 from: 0.0,
                 limit: problem.duration.min(knot) - time,

@@ -5,6 +5,7 @@ use crate::dynamics::Moment;
 use crate::impacts::Impact;
 use crate::law::{Affine, Law, project};
 use crate::method::piecewise_linear::advance::{Certificate, Path, Start, Walk};
+use crate::method::piecewise_linear::curved::{CurvedGuards, Guards};
 use crate::method::piecewise_linear::held::Reaction;
 use crate::method::piecewise_linear::phase::{Phase, Workspace};
 use crate::method::piecewise_linear::product::Products;
@@ -189,6 +190,14 @@ impl<'a, L: Law> ContactReader<'a, L> {
         } else {
             Start::Zero(None)
         };
+        let functions = Guards {
+            problem: self.problem,
+            states: phases.states(phase),
+        };
+        let curved = CurvedGuards {
+            list: &[],
+            functions: &functions,
+        };
         let limit = MOST_TURNING_POINTS;
         while found.len() < limit {
             let rates = std::slice::from_ref(&rate);
@@ -196,6 +205,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
                 phases,
                 phase,
                 signals: rates,
+                curved,
                 starts: &[start],
                 from,
                 limit: length,
