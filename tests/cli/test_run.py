@@ -1,5 +1,6 @@
 """``bumpstop run``: what it prints, writes and returns."""
 
+import errno
 import json
 import re
 import subprocess
@@ -244,6 +245,71 @@ def test_outputs_replace_older_ones_and_leave_the_rest(call: Output, tmp_path: P
     assert (tmp_path / "soft" / "response.nc").read_bytes()[:4] == b"\x89HDF"
     assert (tmp_path / "soft" / "notes.txt").read_text() == "mine"
     assert not (tmp_path / "report.html").exists()
+
+
+def contents(folder: Path) -> dict[str, bytes | None]:
+    """Return all that is in a folder: the files with what they hold."""
+    return {
+        str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None
+        for path in folder.rglob("*")
+    }
+
+
+@pytest.mark.parametrize("taken", ["soft", "stiff/response.nc/", "report.html/"])
+def test_what_stands_in_the_way_of_a_file_is_named(
+    taken: str, call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "stiff").mkdir()
+    (tmp_path / "stiff" / "notes.txt").write_text("mine")
+    in_the_way = tmp_path / taken
+    if taken.endswith("/"):
+        in_the_way.mkdir(parents=True)
+    else:
+        in_the_way.touch()
+    before = contents(tmp_path)
+    status, output, error = call(*RUN, "--out", str(tmp_path))
+    assert (status, output) == (2, "")
+    kind = "is a folder" if taken.endswith("/") else "is not a folder"
+    hint = "move it away, or name another folder"
+    assert error == f"error: --out: nothing was written: {in_the_way} {kind}; {hint}\n"
+    assert contents(tmp_path) == before
+    # So too where it comes to stand there during the run.
+    monkeypatch.setattr("bumpstop.cli.run.check_writable", lambda *_: None)
+    assert call(*RUN, "--out", str(tmp_path)) == (2, "", error)
+    assert contents(tmp_path) == before
+
+
+@pytest.mark.parametrize("last", ["report.html", "soft/response.nc", "stiff/response.nc"])
+def test_a_move_that_fails_midway_is_taken_back(
+    last: str, call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    (out / "stiff").mkdir(parents=True)
+    (out / "stiff" / "response.nc").write_text("old")
+    (out / "report.html").write_text("old")
+    before = contents(tmp_path)
+    rename = Path.rename
+
+    def fail(path: Path, place: Path) -> Path:
+        if place == out / last and ".replaced" not in path.name:
+            raise OSError(errno.EIO, "Input/output error")
+        return rename(path, place)
+
+    monkeypatch.setattr(Path, "rename", fail)
+    status, output, error = call(*RUN, "--out", str(out))
+    assert (status, output) == (2, "")
+    assert "Input/output error" in error
+    assert contents(tmp_path) == before
+
+
+def test_what_an_earlier_run_left_is_said(call: Output, tmp_path: Path) -> None:
+    for name in ("softer/response.nc", "report.html", "soft/response.nc"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("old")
+    said = "of an earlier run, left as they were: report.html, softer/response.nc\n"
+    assert said in call(*RUN, "--out", str(tmp_path), "--no-report")[1]
+    assert (tmp_path / "report.html").read_text() == "old"
+    assert "of an earlier run" not in call(*RUN, "--out", str(tmp_path / "new"), "--no-report")[1]
 
 
 def test_without_out_nothing_is_written(

@@ -31,9 +31,10 @@ def modes_command(path: Path, *, json: bool, out: Path | None) -> int:
     """
     case = load_case(path)
     if out is not None:
-        from bumpstop.cli.outputs import check_writable, write_modes_page
+        from bumpstop.cli.outputs import MODES, write_modes_page
+        from bumpstop.cli.staging import check_writable
 
-        check_writable(out)
+        check_writable(out, [MODES])
         write_modes_page(case, out)
     bases = case.bases
     if json:

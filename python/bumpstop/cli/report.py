@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from bumpstop.cli.console import print_line
-from bumpstop.cli.outputs import check_writable, write_report_alone
+from bumpstop.cli.outputs import REPORT, write_report_alone
 from bumpstop.cli.progress import progress_display
 from bumpstop.cli.solve import solve_case
+from bumpstop.cli.staging import check_writable
 from bumpstop.io.case import load_case
 
 __all__ = ["report_command"]
@@ -16,8 +17,8 @@ __all__ = ["report_command"]
 def report_command(path: Path, *, method: str | None, out: Path) -> int:
     """Simulate a case and write its report; return the status."""
     case = load_case(path)
-    check_writable(out)
+    check_writable(out, [REPORT])
     result = solve_case(case, method, progress_display)
     write_report_alone(result, out)
-    print_line(f"written to {out / 'report.html'}")
+    print_line(f"written to {out / REPORT}")
     return 0 if result.passed else 1

@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from bumpstop.cli.console import print_json
-from bumpstop.cli.outputs import check_writable, write_outputs
+from bumpstop.cli.outputs import output_names, write_outputs
 from bumpstop.cli.progress import progress_display
 from bumpstop.cli.records import case_record
 from bumpstop.cli.solve import solve_case
-from bumpstop.cli.summary import print_summary
+from bumpstop.cli.staging import check_writable
+from bumpstop.cli.summary import print_summary, print_written
 from bumpstop.io.case import load_case
 
 __all__ = ["run_command"]
@@ -21,7 +22,7 @@ def run_command(
     """Simulate a case, write what was asked for and say how it compares; return the status."""
     case = load_case(path)
     if out is not None:
-        check_writable(out)
+        check_writable(out, output_names(case, report=report))
     result = solve_case(case, method, progress_display)
     record = case_record(result)
     if out is not None:
@@ -29,5 +30,7 @@ def run_command(
     if json:
         print_json(record)
     else:
-        print_summary(result, record, out)
+        print_summary(result, record)
+        if out is not None:
+            print_written(out, output_names(case, report=report))
     return 0 if result.passed else 1

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from math import isfinite, isnan
 from pathlib import Path
 from typing import Any
 
 from bumpstop.cli.console import Table, print_line, print_table
+from bumpstop.cli.outputs import older_outputs
 from bumpstop.cli.solve import CaseResult, VariantResult
 from bumpstop.post.energy import residual_told
 from bumpstop.post.references import Check
 from bumpstop.report.words import title_of
 from bumpstop.response import Response
 
-__all__ = ["print_summary", "verdict"]
+__all__ = ["print_summary", "print_written", "verdict"]
 
 
-def print_summary(result: CaseResult, record: dict[str, Any], out: Path | None) -> None:
+def print_summary(result: CaseResult, record: dict[str, Any]) -> None:
     """Print, for each variant, published against computed values and how the run went.
 
     Parameters
@@ -27,8 +28,6 @@ def print_summary(result: CaseResult, record: dict[str, Any], out: Path | None) 
         What was computed.
     record
         The same as `case_record` gives it.
-    out
-        Where files were written.
     """
     print_line(result.case.title, style="bold")
     for variant, numbers in zip(result.variants, record["variants"], strict=True):
@@ -40,9 +39,15 @@ def print_summary(result: CaseResult, record: dict[str, Any], out: Path | None) 
         for line in [*numbers["remarks"], *_told(variant.response, numbers)]:
             print_line(f"  {line}")
         print_line(f"  {verdict(variant.checks)}", style="green" if variant.passed else "bold red")
-    if out is not None:
-        print_line()
-        print_line(f"written to {out}")
+
+
+def print_written(folder: Path, names: Sequence[str]) -> None:
+    """Print where files were written, and what an earlier run has left there."""
+    print_line()
+    older = older_outputs(folder, names)
+    if older:
+        print_line(f"of an earlier run, left as they were: {', '.join(older)}", style="yellow")
+    print_line(f"written to {folder}")
 
 
 def verdict(checks: list[Check]) -> str:
