@@ -338,7 +338,13 @@ struct Powers {
 }
 
 impl Powers {
-    fn new<L: Law>(problem: &Problem<L>, time: f64, known: &[State], q: &[f64], v: &[f64]) -> Self {
+    fn new<L: Law>(
+        problem: &Problem<L>,
+        time: f64,
+        known: impl Iterator<Item = State>,
+        q: &[f64],
+        v: &[f64],
+    ) -> Self {
         let states = sampled_states(problem, known, q, v);
         let laws = || problem.laws.iter().zip(&states);
         Self {
@@ -363,12 +369,12 @@ impl Powers {
 /// The laws' states that a motion shows, after those that a scheme saw at its last step.
 fn sampled_states<L: Law>(
     problem: &Problem<L>,
-    known: &[State],
+    known: impl Iterator<Item = State>,
     q: &[f64],
     v: &[f64],
 ) -> Vec<State> {
     (problem.laws.iter().zip(known))
-        .map(|(law, known)| law.sampled_state(*known, &project(law, q), &project(law, v)))
+        .map(|(law, known)| law.sampled_state(known, &project(law, q), &project(law, v)))
         .collect()
 }
 

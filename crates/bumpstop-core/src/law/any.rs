@@ -56,30 +56,6 @@ macro_rules! ask {
     };
 }
 
-/// What steps ask for at every step stands apart for all laws but the plainest, so that these do
-/// not crowd its loop.
-impl AnyLaw {
-    #[inline(never)]
-    fn sampled_apart(
-        &self,
-        previous: State,
-        position: &Local<f64>,
-        velocity: &Local<f64>,
-    ) -> State {
-        ask!(self, law => law.sampled_state(previous, position, velocity))
-    }
-
-    #[inline(never)]
-    fn force_apart<T: Number>(
-        &self,
-        state: State,
-        position: &Local<T>,
-        velocity: &Local<T>,
-    ) -> Local<T> {
-        ask!(self, law => law.force(state, position, velocity))
-    }
-}
-
 impl Law for AnyLaw {
     #[inline(always)]
     fn rows(&self) -> &[Vec<f64>] {
@@ -101,17 +77,19 @@ impl Law for AnyLaw {
         position: &Local<f64>,
         velocity: &Local<f64>,
     ) -> State {
-        match self {
-            Self::Stop(law) => law.sampled_state(previous, position, velocity),
-            other => other.sampled_apart(previous, position, velocity),
-        }
+        ask!(self, law => law.sampled_state(previous, position, velocity))
     }
 
     #[inline(always)]
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
+        ask!(self, law => law.force(state, position, velocity))
+    }
+
+    #[inline(always)]
+    fn as_stop(&self) -> Option<&Stop> {
         match self {
-            Self::Stop(law) => law.force(state, position, velocity),
-            other => other.force_apart(state, position, velocity),
+            Self::Stop(law) => Some(law),
+            _ => None,
         }
     }
 

@@ -113,6 +113,9 @@ pub struct Guard {
 
 /// A local nonlinearity.
 pub trait Law: Clone + Send + Sync {
+    /// Whether states have a memory that must be kept. A law whose memory is always zero says no.
+    const REMEMBERS: bool = true;
+
     /// The rows that project modal displacements to local coordinates, each of one entry a mode.
     fn rows(&self) -> &[Vec<f64>];
 
@@ -129,6 +132,12 @@ pub trait Law: Clone + Send + Sync {
 
     /// Force on the structure in local coordinates, in N.
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T>;
+
+    /// The plain stop that the law is, if it is one: what is done at each of many steps has code
+    /// of its own for them.
+    fn as_stop(&self) -> Option<&Stop> {
+        None
+    }
 
     /// The state's matrices where it is linear.
     fn piece(&self, state: State) -> Option<Piece>;

@@ -43,6 +43,8 @@ impl RigidStop {
 }
 
 impl Law for RigidStop {
+    const REMEMBERS: bool = false;
+
     fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }

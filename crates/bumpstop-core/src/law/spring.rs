@@ -140,6 +140,8 @@ impl Segment {
 }
 
 impl Law for Spring {
+    const REMEMBERS: bool = false;
+
     fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }

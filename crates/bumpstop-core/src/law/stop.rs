@@ -108,6 +108,8 @@ fn is(state: State, which: State) -> bool {
 }
 
 impl Law for Stop {
+    const REMEMBERS: bool = false;
+
     fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }
@@ -166,6 +168,11 @@ impl Law for Stop {
             zero
         };
         [normal, zero, zero]
+    }
+
+    #[inline(always)]
+    fn as_stop(&self) -> Option<&Stop> {
+        Some(self)
     }
 
     fn piece(&self, state: State) -> Option<Piece> {

@@ -9,14 +9,14 @@
 
 use super::Observer;
 use super::fixed_step::{
-    ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_forces,
-    check_step, check_uncoupled, coupling, first_state, highest_frequency, laws_damping, modal,
-    pushed,
+    ChangingLoads, Count, March, Modal, Setting, Step, StepRecord, VelocityRule, check_forces,
+    check_step, check_uncoupled, coupling, highest_frequency, in_lanes, law_force, laws_damping,
+    modal, pushed, run,
 };
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, project};
-use crate::number::{Instructions, Lanes, Number, dispatch};
+use crate::law::{COORDINATES, Law, Local, Stop, project};
+use crate::number::{Instructions, Lanes, Number};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 use std::sync::Arc;
@@ -45,13 +45,12 @@ pub fn simulate<L: Law>(
     check_forces(NAME, &problem.laws)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = CentralDifference {
-        problem,
         record: &mut record,
         observer,
     };
-    dispatch(Sized { problem, march })?;
+    run(march, problem)?;
     record.check()?;
-    let events = record.events(problem);
+    let events = record.events();
     Ok(History::of_steps(problem, NAME, record, events))
 }
 
@@ -76,73 +75,81 @@ impl Coefficients {
     }
 }
 
-struct CentralDifference<'a, 'o, L> {
-    problem: &'a Problem<L>,
+struct CentralDifference<'a, 'o> {
     record: &'a mut StepRecord,
     observer: Observer<'o>,
 }
 
-impl<L: Law> March<L> for CentralDifference<'_, '_, L> {
+impl March for CentralDifference<'_, '_> {
+    fn among_stops(self, setting: &Setting<'_, Stop>) -> Result<()> {
+        in_lanes(self, setting)
+    }
+
     /// The laws do not wait for the modes of their own step: local positions follow from the
     /// modes of the two steps before and the forces alone,
     /// `x[n+1] = (row own) . q[n] + (row past) . q[n-1] + (row gain) . (p + row f)`.
     #[inline(always)]
-    fn march<I: Instructions, B: Count, A: Count, const CHANGING: bool>(self) -> Result<()> {
-        let Self {
-            problem,
-            record,
-            observer,
-        } = self;
+    fn march<P: Law, I: Instructions, B: Count, A: Count, const CHANGING: bool>(
+        self,
+        setting: &Setting<'_, P>,
+    ) -> Result<()> {
+        let Self { record, observer } = self;
         let dt = record.dt;
-        let coefficients = Coefficients::new(&problem.system, dt);
+        let coefficients = Coefficients::new(setting.system, dt);
         let gain = &coefficients.gain;
         let own = modal::<I, B>(&coefficients.own);
         let past = modal::<I, B>(&coefficients.past);
-        let mut load = modal::<I, B>(&weighted(problem.forcing.forces(), gain));
-        let mut changing = ChangingLoads::new(&problem.forcing, dt, gain);
-        let laws = A::make(problem.laws.len(), |i| &problem.laws[i]);
+        let mut load = modal::<I, B>(&weighted(setting.forcing.forces(), gain));
+        let mut changing = ChangingLoads::new(setting.forcing, dt, gain);
+        let laws = A::make(setting.laws.len(), |i| setting.laws[i]);
         let laws = laws.as_ref();
         let couplings = A::make(laws.len(), |i| {
             A::make(laws.len(), |j| coupling(laws[i], laws[j], gain))
         });
-        let initial = displacement_before(problem, dt);
+        let initial = displacement_before(setting, dt);
         let mut contacts = A::make(laws.len(), |i| {
-            Contact::<I, B>::new(laws[i], problem, &initial, &coefficients, dt)
+            Contact::<I, B>::new(laws[i], setting, &initial, &coefficients, dt)
         });
         let contacts = contacts.as_mut();
         let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
         let forces = forces.as_mut();
-        let mut seen = A::make(laws.len(), |i| first_state(laws[i], problem));
-        let seen = seen.as_mut();
         let mut before = modal::<I, B>(&initial);
-        let mut q = modal::<I, B>(&problem.displacement);
-        record.begin(&initial, &problem.displacement);
+        let mut q = modal::<I, B>(setting.displacement);
+        let first = record.begin(setting, &initial);
+        let mut seen = A::make(laws.len(), |i| first[i]);
+        let seen = seen.as_mut();
         let (blocks, states) = (q.as_ref().len(), laws.len().max(1));
         while let Some(stretch) = record.next_stretch() {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
-            for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
+            let mut memories = stretch.states.memories.chunks_exact_mut(states);
+            for (row, numbers) in rows.zip(stretch.states.numbers.chunks_exact_mut(states)) {
                 if CHANGING {
                     let now = changing.next();
                     for (load, now) in load.as_mut().iter_mut().zip(now) {
                         *load = Lanes::of_block(now);
                     }
                     for (law, contact) in laws.iter().zip(contacts.iter_mut()) {
-                        contact.load = project(*law, now.as_flattened());
+                        contact.load = project(*law, now.as_flattened()).map(Lanes::first);
                     }
                 }
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
-                    let (position, velocity) = (&contact.now, &contact.rate);
-                    seen[i] = law.sampled_state(seen[i], position, velocity);
-                    forces[i] = law.force(seen[i], position, velocity);
-                    states[i] = seen[i];
+                    forces[i] = law_force(*law, &mut seen[i], &contact.now, &contact.rate);
+                    numbers[i] = seen[i].number;
+                }
+                if P::REMEMBERS
+                    && let Some(memories) = memories.next()
+                {
+                    for (memory, state) in memories.iter_mut().zip(&*seen) {
+                        *memory = state.memory;
+                    }
                 }
                 let coupled = contacts.iter_mut().zip(couplings.as_ref());
                 for (law, (contact, couplings)) in laws.iter().zip(coupled) {
                     for c in 0..law.rows().len() {
                         let free = contact.free(c, q.as_ref(), before.as_ref());
-                        let pushed = pushed(laws, couplings.as_ref(), c, forces);
-                        contact.push(c, free + pushed, dt);
+                        let next = pushed(laws, couplings.as_ref(), c, forces, free);
+                        contact.push(c, next, dt);
                     }
                 }
                 let known = own.as_ref().iter().zip(past.as_ref()).zip(load.as_ref());
@@ -178,7 +185,7 @@ struct Contact<I: Instructions, B: Count> {
     own: Local<Modal<I, B>>,
     past: Local<Modal<I, B>>,
     /// What the loads add to the local positions in a step.
-    load: Local<f64>,
+    load: Local<Lanes<I>>,
     /// What unit forces add to the modes in a step.
     pushes: Local<Modal<I, B>>,
     now: Local<f64>,
@@ -190,15 +197,12 @@ struct Contact<I: Instructions, B: Count> {
 impl<I: Instructions, B: Count> Contact<I, B> {
     fn new<L: Law>(
         law: &L,
-        problem: &Problem<L>,
+        setting: &Setting<'_, L>,
         before: &[f64],
         Coefficients { own, past, gain }: &Coefficients,
         dt: f64,
     ) -> Self {
-        let (now, rate) = (
-            project(law, &problem.displacement),
-            project(law, &problem.velocity),
-        );
+        let (now, rate) = setting.local_start(law);
         let previous = project(law, before);
         let zero = vec![0.0; gain.len()];
         let row = |c: usize| law.rows().get(c).unwrap_or(&zero);
@@ -207,7 +211,7 @@ impl<I: Instructions, B: Count> Contact<I, B> {
         Self {
             own: times(own),
             past: times(past),
-            load: project(law, &weighted(problem.forcing.forces(), gain)),
+            load: project(law, &weighted(setting.forcing.forces(), gain)).map(Lanes::first),
             pushes: times(gain),
             now,
             rate,
@@ -220,14 +224,14 @@ impl<I: Instructions, B: Count> Contact<I, B> {
     /// The next position of a coordinate if no law pushed.
     #[inline(always)]
     fn free(&self, c: usize, q: &[Lanes<I>], before: &[Lanes<I>]) -> f64 {
-        let mut total = Lanes::<I>::of(0.0);
+        let mut total = self.load[c];
         for (past, before) in self.past[c].as_ref().iter().zip(before) {
             total = past.mul_add(*before, total);
         }
         for (own, q) in self.own[c].as_ref().iter().zip(q) {
             total = own.mul_add(*q, total);
         }
-        total.total() + self.load[c]
+        total.total()
     }
 
     /// Goes one step on; the rate is `(3 x[n] - 4 x[n-1] + x[n-2]) / (2 dt)`.
@@ -240,19 +244,19 @@ impl<I: Instructions, B: Count> Contact<I, B> {
 }
 
 /// `q[-1] = q0 - dt v0 + dt^2/2 a0`, which starts the scheme at its own order.
-fn displacement_before<L: Law>(problem: &Problem<L>, dt: f64) -> Vec<f64> {
-    let (q, v) = (&problem.displacement, &problem.velocity);
-    let [mut forces, _] = problem.forcing.around(0.0);
-    for law in &problem.laws {
-        let (position, rate) = (project(law, q), project(law, v));
-        let force = law.force(first_state(law, problem), &position, &rate);
+fn displacement_before<L: Law>(setting: &Setting<'_, L>, dt: f64) -> Vec<f64> {
+    let (q, v) = (setting.displacement, setting.velocity);
+    let [mut forces, _] = setting.forcing.around(0.0);
+    for &law in &setting.laws {
+        let (position, rate) = setting.local_start(law);
+        let force = law.force(setting.first_state(law), &position, &rate);
         for (row, f) in law.rows().iter().zip(force) {
             for (total, r) in forces.iter_mut().zip(row) {
                 *total += r * f;
             }
         }
     }
-    let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
+    let (omega2, damping) = (setting.system.omega2(), setting.system.damping());
     (0..q.len())
         .map(|i| {
             let acceleration = forces[i] - damping[i] * v[i] - omega2[i] * q[i];

@@ -7,14 +7,14 @@
 
 use super::Observer;
 use super::fixed_step::{
-    ChangingLoads, Count, March, Modal, Sized, Step, StepRecord, VelocityRule, check_forces,
-    check_step, check_uncoupled, coupling, first_state, highest_frequency, laws_damping, modal,
-    pushed,
+    ChangingLoads, Count, March, Modal, Setting, Step, StepRecord, VelocityRule, check_forces,
+    check_step, check_uncoupled, coupling, highest_frequency, in_lanes, law_force, laws_damping,
+    modal, pushed, run,
 };
 use crate::error::Result;
 use crate::history::History;
-use crate::law::{COORDINATES, Law, Local, project};
-use crate::number::{Instructions, Lanes, Number, dispatch};
+use crate::law::{COORDINATES, Law, Local, Stop, project};
+use crate::number::{Instructions, Lanes, Number};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 use std::sync::Arc;
@@ -44,83 +44,93 @@ pub fn simulate<L: Law>(
     check_forces(NAME, &problem.laws)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = SymplecticEuler {
-        problem,
         record: &mut record,
         observer,
     };
-    dispatch(Sized { problem, march })?;
+    run(march, problem)?;
     record.check()?;
-    let events = record.events(problem);
+    let events = record.events();
     Ok(History::of_steps(problem, NAME, record, events))
 }
 
-struct SymplecticEuler<'a, 'o, L> {
-    problem: &'a Problem<L>,
+struct SymplecticEuler<'a, 'o> {
     record: &'a mut StepRecord,
     observer: Observer<'o>,
 }
 
-impl<L: Law> March<L> for SymplecticEuler<'_, '_, L> {
+impl March for SymplecticEuler<'_, '_> {
+    fn among_stops(self, setting: &Setting<'_, Stop>) -> Result<()> {
+        in_lanes(self, setting)
+    }
+
     /// The laws do not wait for the modes of their own step: local velocities follow from the
     /// modes of the step before and the forces alone,
     /// `x' = (row - dt row c) . v - (dt row w2) . q + dt row . (p + row f)`.
     #[inline(always)]
-    fn march<I: Instructions, B: Count, A: Count, const CHANGING: bool>(self) -> Result<()> {
-        let Self {
-            problem,
-            record,
-            observer,
-        } = self;
+    fn march<P: Law, I: Instructions, B: Count, A: Count, const CHANGING: bool>(
+        self,
+        setting: &Setting<'_, P>,
+    ) -> Result<()> {
+        let Self { record, observer } = self;
         let dt = record.dt;
         let step = Lanes::<I>::of(dt);
-        let omega2 = modal::<I, B>(problem.system.omega2());
-        let damping = modal::<I, B>(problem.system.damping());
-        let mut load = modal::<I, B>(problem.forcing.forces());
-        let gain = vec![dt; problem.system.modes()];
-        let same = vec![1.0; problem.system.modes()];
-        let mut changing = ChangingLoads::new(&problem.forcing, dt, &same);
-        let laws = A::make(problem.laws.len(), |i| &problem.laws[i]);
+        let omega2 = modal::<I, B>(setting.system.omega2());
+        let damping = modal::<I, B>(setting.system.damping());
+        let mut load = modal::<I, B>(setting.forcing.forces());
+        let gain = vec![dt; setting.system.modes()];
+        let same = vec![1.0; setting.system.modes()];
+        let mut changing = ChangingLoads::new(setting.forcing, dt, &same);
+        let laws = A::make(setting.laws.len(), |i| setting.laws[i]);
         let laws = laws.as_ref();
         let couplings = A::make(laws.len(), |i| {
             A::make(laws.len(), |j| coupling(laws[i], laws[j], &gain))
         });
-        let mut contacts = A::make(laws.len(), |i| Contact::<I, B>::new(laws[i], problem, dt));
+        let mut contacts = A::make(laws.len(), |i| Contact::<I, B>::new(laws[i], setting, dt));
         let contacts = contacts.as_mut();
         let mut forces = A::make(laws.len(), |_| [0.0; COORDINATES]);
         let forces = forces.as_mut();
-        let mut seen = A::make(laws.len(), |i| first_state(laws[i], problem));
-        let seen = seen.as_mut();
-        let mut q = modal::<I, B>(&problem.displacement);
-        let mut v = modal::<I, B>(&problem.velocity);
-        let both = problem.displacement.iter().zip(&problem.velocity);
+        let mut q = modal::<I, B>(setting.displacement);
+        let mut v = modal::<I, B>(setting.velocity);
+        let both = setting.displacement.iter().zip(setting.velocity);
         let before: Vec<f64> = both.map(|(q, v)| q - dt * v).collect();
-        record.begin(&before, &problem.displacement);
+        let first = record.begin(setting, &before);
+        let mut seen = A::make(laws.len(), |i| first[i]);
+        let seen = seen.as_mut();
         let (blocks, states) = (q.as_ref().len(), laws.len().max(1));
         while let Some(stretch) = record.next_stretch() {
             stretch.observe(observer)?;
             let rows = stretch.rows.chunks_exact_mut(blocks);
-            for (row, states) in rows.zip(stretch.states.chunks_exact_mut(states)) {
+            let mut memories = stretch.states.memories.chunks_exact_mut(states);
+            for (row, numbers) in rows.zip(stretch.states.numbers.chunks_exact_mut(states)) {
                 if CHANGING {
                     let now = changing.next();
                     for (load, now) in load.as_mut().iter_mut().zip(now) {
                         *load = Lanes::of_block(now);
                     }
                     for (law, contact) in laws.iter().zip(contacts.iter_mut()) {
-                        contact.load = project(*law, now.as_flattened()).map(|p| dt * p);
+                        let loads = project(*law, now.as_flattened());
+                        contact.load = loads.map(|p| Lanes::first(dt * p));
                     }
                 }
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
                     let (position, velocity) = (&contact.position, &contact.velocity);
-                    seen[i] = law.sampled_state(seen[i], position, velocity);
-                    forces[i] = law.force(seen[i], position, velocity);
-                    states[i] = seen[i];
+                    forces[i] = law_force(*law, &mut seen[i], position, velocity);
+                    numbers[i] = seen[i].number;
+                }
+                if P::REMEMBERS
+                    && let Some(memories) = memories.next()
+                {
+                    for (memory, state) in memories.iter_mut().zip(&*seen) {
+                        *memory = state.memory;
+                    }
                 }
                 let coupled = contacts.iter_mut().zip(couplings.as_ref());
                 for (law, (contact, couplings)) in laws.iter().zip(coupled) {
                     for c in 0..law.rows().len() {
                         let free = contact.free(c, q.as_ref(), v.as_ref());
-                        contact.velocity[c] = free + pushed(laws, couplings.as_ref(), c, forces);
-                        contact.position[c] += dt * contact.velocity[c];
+                        let velocity = pushed(laws, couplings.as_ref(), c, forces, free);
+                        contact.position[c] = velocity.mul_add(dt, contact.position[c]);
+                        contact.velocity[c] = velocity;
                     }
                 }
                 let known = omega2.as_ref().iter().zip(damping.as_ref());
@@ -156,14 +166,14 @@ struct Contact<I: Instructions, B: Count> {
     of_position: Local<Modal<I, B>>,
     of_velocity: Local<Modal<I, B>>,
     /// What the loads add to the local velocities in a step.
-    load: Local<f64>,
+    load: Local<Lanes<I>>,
     position: Local<f64>,
     velocity: Local<f64>,
 }
 
 impl<I: Instructions, B: Count> Contact<I, B> {
-    fn new<L: Law>(law: &L, problem: &Problem<L>, dt: f64) -> Self {
-        let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
+    fn new<L: Law>(law: &L, setting: &Setting<'_, L>, dt: f64) -> Self {
+        let (omega2, damping) = (setting.system.omega2(), setting.system.damping());
         let zero = vec![0.0; omega2.len()];
         let row = |c: usize| law.rows().get(c).unwrap_or(&zero);
         let times = |c: usize, factor: &dyn Fn(usize) -> f64| {
@@ -172,26 +182,27 @@ impl<I: Instructions, B: Count> Contact<I, B> {
                 .collect();
             modal::<I, B>(&products)
         };
+        let (position, velocity) = setting.local_start(law);
         Self {
             rows: std::array::from_fn(|c| modal::<I, B>(row(c))),
             of_position: std::array::from_fn(|c| times(c, &|i| -dt * omega2[i])),
             of_velocity: std::array::from_fn(|c| times(c, &|i| 1.0 - dt * damping[i])),
-            load: project(law, problem.forcing.forces()).map(|p| dt * p),
-            position: project(law, &problem.displacement),
-            velocity: project(law, &problem.velocity),
+            load: project(law, setting.forcing.forces()).map(|p| Lanes::first(dt * p)),
+            position,
+            velocity,
         }
     }
 
     /// The next velocity of a coordinate if no law pushed.
     #[inline(always)]
     fn free(&self, c: usize, q: &[Lanes<I>], v: &[Lanes<I>]) -> f64 {
-        let mut total = Lanes::<I>::of(0.0);
+        let mut total = self.load[c];
         for (factor, v) in self.of_velocity[c].as_ref().iter().zip(v) {
             total = factor.mul_add(*v, total);
         }
         for (factor, q) in self.of_position[c].as_ref().iter().zip(q) {
             total = factor.mul_add(*q, total);
         }
-        total.total() + self.load[c]
+        total.total()
     }
 }

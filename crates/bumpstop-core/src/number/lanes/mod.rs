@@ -27,6 +27,14 @@ impl<I: Instructions> Lanes<I> {
         Self(I::load(&numbers))
     }
 
+    /// One number, and zeros beside it: what a total may start from.
+    #[inline(always)]
+    pub fn first(number: f64) -> Self {
+        let mut numbers = [0.0; LANES];
+        numbers[0] = number;
+        Self::new(numbers)
+    }
+
     /// The numbers of a block.
     #[inline(always)]
     pub fn of_block(block: &Block) -> Self {

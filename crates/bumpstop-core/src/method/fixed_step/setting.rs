@@ -1,0 +1,50 @@
+//! What a march starts from.
+
+use crate::forcing::Forcing;
+use crate::law::{Law, Local, LocalMotion, State, project};
+use crate::problem::Problem;
+use crate::system::ModalSystem;
+
+/// A problem whose laws are of one kind: all plain stops, or whatever the problem has.
+pub(crate) struct Setting<'a, P> {
+    pub system: &'a ModalSystem,
+    pub forcing: &'a Forcing,
+    /// Modal displacements at t = 0.
+    pub displacement: &'a [f64],
+    /// Modal velocities at t = 0.
+    pub velocity: &'a [f64],
+    pub laws: Vec<&'a P>,
+}
+
+impl<'a, P: Law> Setting<'a, P> {
+    /// A problem with its laws, seen as what they are.
+    pub(super) fn new<L>(problem: &'a Problem<L>, laws: Vec<&'a P>) -> Self {
+        Self {
+            system: &problem.system,
+            forcing: &problem.forcing,
+            displacement: &problem.displacement,
+            velocity: &problem.velocity,
+            laws,
+        }
+    }
+
+    /// Local positions and velocities of a law at t = 0.
+    pub(crate) fn local_start(&self, law: &P) -> (Local<f64>, Local<f64>) {
+        let position = project(law, self.displacement);
+        (position, project(law, self.velocity))
+    }
+
+    /// The state of a law at t = 0.
+    pub(crate) fn first_state(&self, law: &P) -> State {
+        let (position, velocity) = self.local_start(law);
+        let before = law.initial_state(&LocalMotion::of(position, velocity));
+        law.sampled_state(before, &position, &velocity)
+    }
+
+    /// The states of all laws at t = 0.
+    pub(super) fn first_states(&self) -> Vec<State> {
+        (self.laws.iter())
+            .map(|law| self.first_state(law))
+            .collect()
+    }
+}
