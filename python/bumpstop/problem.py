@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, all_of, listed, name, positive, refuse_twins
+from bumpstop.arguments import FloatArray, all_of, listed, name, positive, refuse_twins
 from bumpstop.errors import InputError
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.structure.gauge import Gauge
@@ -39,14 +39,6 @@ class Law(Protocol):
     @property
     def table(self) -> str:
         """Where a problem keeps it, in words for messages."""
-
-    @property
-    def node(self) -> str:
-        """The node that it acts on, the first of several."""
-
-    @property
-    def normal(self) -> Vector:
-        """The direction along which it acts there."""
 
     @property
     def coordinate(self) -> Coordinate:

@@ -100,7 +100,7 @@ def test_a_case_of_parts_is_the_assembly_written_in_python(load: Load) -> None:
     problem = load(PORTAL).problems["base"]
     np.testing.assert_array_equal(problem.basis.omega2, expected.omega2)
     np.testing.assert_array_equal(problem.basis.shapes, expected.shapes)
-    assert problem.laws[0].node == "right.AB@1.5 m"
+    assert problem.laws[0].coordinate.node == "right.AB@1.5 m"
     assert bs.simulate(problem).sample("gauge", "foot").shape == (1001,)
 
 

@@ -158,7 +158,7 @@ def test_overrides_reach_into_lists_and_add_tables(load: Load) -> None:
         '"run.method" = "exact"\n'
     )
     floor, ceiling = case.problems["all"].laws
-    assert floor.normal == pytest.approx((1 / math.sqrt(5), 0, 2 / math.sqrt(5)))
+    assert floor.coordinate.direction == pytest.approx((1 / math.sqrt(5), 0, 2 / math.sqrt(5)))
     assert ceiling.name == "ceiling"
     assert len(case.problems["all"].basis.omega2) == 2
     assert (case.methods["all"].name, case.method) == ("exact", "auto")

@@ -152,10 +152,10 @@ def test_the_magnified_motion_fits_and_can_be_read(soft: bs.Response) -> None:
 
 def test_bodies_alone_are_drawn_to_scale(ball: Run, pendulum: bs.Problem) -> None:
     for response in (ball.responses["base"], bs.simulate(pendulum, method="exact")):
-        law = response.problem.laws[0]
-        drawn = outline(response.problem.basis, [law.node])
-        scene = motion_scene(response, (law.node, "dx"), drawn) if drawn.schematic else None
-        scene = scene or motion_scene(response, (law.node, "dz"), drawn)
+        node = response.problem.laws[0].coordinate.node
+        drawn = outline(response.problem.basis, [node])
+        scene = motion_scene(response, (node, "dx"), drawn) if drawn.schematic else None
+        scene = scene or motion_scene(response, (node, "dz"), drawn)
         assert scene["magnifications"] == {"choices": [1], "first": 0}
         assert scene["bodies"]
 

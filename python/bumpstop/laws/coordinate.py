@@ -51,7 +51,7 @@ class Coordinate:
         key: str,
         direction: object,
         other: object = None,
-        terms: object = None,
+        terms: Terms | None = None,
     ) -> Self:
         """Check what a user says: either node and direction (called ``key``), or terms."""
         if terms is None:
@@ -68,10 +68,10 @@ class Coordinate:
         return cls._of_terms(terms)
 
     @classmethod
-    def _of_terms(cls, terms: object) -> Self:
+    def _of_terms(cls, terms: Terms) -> Self:
         from bumpstop.structure.relation import Relation
 
-        checked = Relation(terms).terms  # type: ignore[arg-type]  # it checks them
+        checked = Relation(terms).terms
         node = next(iter(checked))[0]
         kinds = [TRANSLATIONS, ROTATIONS]
         weights = [[checked.get((node, dof), 0.0) for dof in dofs] for dofs in kinds]

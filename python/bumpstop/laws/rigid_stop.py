@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, finite, name, one_of
+from bumpstop.arguments import FloatArray, finite
 from bumpstop.errors import InputError
-from bumpstop.laws.coordinate import Coordinate, Terms
-from bumpstop.laws.stop import OBSTACLES, contact_row
+from bumpstop.laws.contact import Contact
 
 if TYPE_CHECKING:
     from bumpstop import _core
@@ -23,7 +22,7 @@ ROUNDING = 1e-14
 
 
 @dataclass(frozen=True)
-class RigidStop:
+class RigidStop(Contact):
     """A stop without give: the structure rebounds with a coefficient of restitution.
 
     The distance ``d = gap + normal . (u - u_other)`` never becomes negative. At an impact its
@@ -73,46 +72,15 @@ class RigidStop:
     1.3546
     """
 
-    table: ClassVar[str] = "stops"
-    """Where a problem keeps it, in words for messages."""
-
-    name: str
     _: KW_ONLY
-    node: str = None  # type: ignore[assignment]  # told by the terms where it is left out
-    normal: Vector = None  # type: ignore[assignment]  # as the node
-    other: str | None = None
-    terms: Terms | None = None
-    gap: float = 0.0
     restitution: float
-    obstacle: str = "plane"
 
     def __post_init__(self) -> None:
-        name("name", self.name)
-        one_of("obstacle", self.obstacle, OBSTACLES)
-        contact = Coordinate.of(self.node, "normal", self.normal, self.other, self.terms)
-        object.__setattr__(self, "node", contact.node)
-        object.__setattr__(self, "normal", contact.direction)
-        object.__setattr__(self, "terms", contact.terms)
-        object.__setattr__(self, "gap", finite("gap", self.gap))
+        super().__post_init__()
         restitution = finite("restitution", self.restitution)
         if not 0.0 <= restitution <= 1.0:
             raise InputError("must be from 0 to 1", key="restitution", value=self.restitution)
         object.__setattr__(self, "restitution", restitution)
-
-    @property
-    def coordinate(self) -> Coordinate:
-        """The coordinate that its distance is measured along."""
-        return Coordinate(self.node, self.normal, self.other, self.terms)
-
-    def row(self, basis: ModalBasis) -> FloatArray:
-        """Return the distance per unit of each modal displacement, (N,).
-
-        Raises
-        ------
-        InputError
-            If the basis has no shape at a node, or none that changes the distance.
-        """
-        return contact_row(self.coordinate, basis)
 
     def check_start(self, basis: ModalBasis, displacement: FloatArray) -> None:
         """Refuse a start, at modal displacements (N,), inside the stop.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar, Self
 
@@ -75,8 +76,8 @@ class SpringLaw:
 
     name: str
     _: KW_ONLY
-    node: str = None  # type: ignore[assignment]  # told by the terms where it is left out
-    direction: Vector = None  # type: ignore[assignment]  # as the node
+    node: str | None = None
+    direction: Vector | None = None
     other: str | None = None
     terms: Terms | None = None
     stiffness: Sequence[float]
@@ -86,10 +87,9 @@ class SpringLaw:
 
     def __post_init__(self) -> None:
         name("name", self.name)
-        along = Coordinate.of(self.node, "direction", self.direction, self.other, self.terms)
-        object.__setattr__(self, "node", along.node)
-        object.__setattr__(self, "direction", along.direction)
-        object.__setattr__(self, "terms", along.terms)
+        if self.coordinate.terms is None:
+            object.__setattr__(self, "direction", self.coordinate.direction)
+        object.__setattr__(self, "terms", self.coordinate.terms)
         breaks = series("breaks", self.breaks) if len(self.breaks) else ()
         object.__setattr__(self, "stiffness", series("stiffness", self.stiffness))
         object.__setattr__(self, "breaks", breaks)
@@ -144,8 +144,8 @@ class SpringLaw:
         home = int(np.searchsorted(breaks, 0.0, side="right"))
         return cls(
             name,
-            node=node,  # type: ignore[arg-type]  # checked there
-            direction=direction,  # type: ignore[arg-type]
+            node=node,
+            direction=direction,
             other=other,
             terms=terms,
             stiffness=tuple(slopes.tolist()),
@@ -154,15 +154,10 @@ class SpringLaw:
             damping=damping,
         )
 
-    @property
+    @cached_property
     def coordinate(self) -> Coordinate:
         """The coordinate of its deformation."""
-        return Coordinate(self.node, self.direction, self.other, self.terms)
-
-    @property
-    def normal(self) -> Vector:
-        """Its direction, as a stop has one."""
-        return self.direction
+        return Coordinate.of(self.node, "direction", self.direction, self.other, self.terms)
 
     def row(self, basis: ModalBasis) -> FloatArray:
         """Return the deformation per unit of each modal displacement, (N,).

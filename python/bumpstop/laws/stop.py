@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
-from bumpstop.arguments import FloatArray, Vector, finite, name, not_negative, one_of, positive
+from bumpstop.arguments import FloatArray, Vector, not_negative, positive
 from bumpstop.errors import InputError
+from bumpstop.laws.contact import Contact
 from bumpstop.laws.coordinate import Coordinate, Terms, unit
 
 if TYPE_CHECKING:
@@ -15,13 +16,11 @@ if TYPE_CHECKING:
     from bumpstop.laws.friction import Friction
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["Stop", "contact_row"]
-
-OBSTACLES = ("plane",)
+__all__ = ["Stop"]
 
 
 @dataclass(frozen=True)
-class Stop:
+class Stop(Contact):
     """A spring and damper that push a node back once it has crossed the gap.
 
     With the distance ``d = gap + normal . (u - u_other)`` of the displacements u of the node
@@ -83,52 +82,21 @@ class Stop:
     (-1.0, 0.0, 0.0)
     """
 
-    table: ClassVar[str] = "stops"
-    """Where a problem keeps it, in words for messages."""
-
-    name: str
     _: KW_ONLY
-    node: str = None  # type: ignore[assignment]  # told by the terms where it is left out
-    normal: Vector = None  # type: ignore[assignment]  # as the node
-    other: str | None = None
-    terms: Terms | None = None
-    gap: float = 0.0
     stiffness: float
     damping: float = 0.0
-    obstacle: str = "plane"
     friction: float | Mapping[str, float] | Friction | None = None
     sliding: Vector | Terms | None = None
     tangential_stiffness: float | None = None
     tangential_damping: float = 0.0
 
     def __post_init__(self) -> None:
-        name("name", self.name)
-        one_of("obstacle", self.obstacle, OBSTACLES)
-        contact = Coordinate.of(self.node, "normal", self.normal, self.other, self.terms)
-        object.__setattr__(self, "node", contact.node)
-        object.__setattr__(self, "normal", contact.direction)
-        object.__setattr__(self, "terms", contact.terms)
-        object.__setattr__(self, "gap", finite("gap", self.gap))
+        super().__post_init__()
         object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
         object.__setattr__(self, "damping", not_negative("damping", self.damping))
         damping = not_negative("tangential_damping", self.tangential_damping)
         object.__setattr__(self, "tangential_damping", damping)
         self._check_friction()
-
-    @property
-    def coordinate(self) -> Coordinate:
-        """The coordinate that its distance is measured along."""
-        return Coordinate(self.node, self.normal, self.other, self.terms)
-
-    def row(self, basis: ModalBasis) -> FloatArray:
-        """Return the distance per unit of each modal displacement, (N,).
-
-        Raises
-        ------
-        InputError
-            If the basis has no shape at a node, or none that changes the distance.
-        """
-        return contact_row(self.coordinate, basis)
 
     def sliding_row(self, basis: ModalBasis) -> FloatArray | None:
         """Return the motion along the obstacle, (N,); None without friction.
@@ -181,7 +149,7 @@ class Stop:
             object.__setattr__(self, "sliding", checked)
         elif self.sliding is not None:
             sliding = unit("sliding", self.sliding)
-            tangent(self.normal, sliding)
+            tangent(self.coordinate.direction, sliding)
             object.__setattr__(self, "sliding", sliding)
 
     def _refuse_without_friction(self) -> None:
@@ -194,16 +162,3 @@ class Stop:
             if value is not None:
                 hint = "give the coefficient, friction = 0.2"
                 raise InputError("belongs to friction", key=key, value=value, hint=hint)
-
-
-def contact_row(contact: Coordinate, basis: ModalBasis) -> FloatArray:
-    """Return what a distance sees of each mode (N,), refusing one that nothing changes."""
-    row = contact.row(basis)
-    if not row.any():
-        what = "no mode moves this node along the normal"
-        if contact.terms is not None:
-            raise InputError("no mode changes this sum", key="terms", value=contact.terms)
-        if contact.other is not None:
-            what = "no mode moves these nodes against each other along the normal"
-        raise InputError(what, key="node", value=contact.node)
-    return row

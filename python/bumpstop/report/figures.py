@@ -193,7 +193,7 @@ def _portrait_marks(
     """Yield name, instants and marker of what is worth a mark on a node's path."""
     ring = {"symbol": "circle-open", "size": 13, "color": LIGHT["ink"], "line": {"width": 1.8}}
     yield "Start", [0.0], ring
-    stops = [law.name for law in response.problem.laws if law.node == node]
+    stops = [law.name for law in response.problem.laws if law.coordinate.node == node]
     spans = [span for stop in stops for span in contact_spans(response, stop)]
     if not 0 < len(spans) <= MOST_BANDS:
         return
@@ -283,8 +283,6 @@ def _contact_places(response: Response, node: str, dof: str) -> list[float]:
     axis = ("dx", "dy", "dz").index(dof) if dof in ("dx", "dy", "dz") else None
     if axis is None:
         return []
-    return [
-        -law.gap / law.normal[axis]
-        for law in fixed_stops(response.problem)
-        if law.node == node and abs(abs(law.normal[axis]) - 1.0) < 1e-12
-    ]
+    stops = [law for law in fixed_stops(response.problem) if law.coordinate.node == node]
+    facing = [(law.gap, law.coordinate.direction[axis]) for law in stops]
+    return [-gap / part for gap, part in facing if abs(abs(part) - 1.0) < 1e-12]

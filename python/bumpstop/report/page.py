@@ -42,7 +42,7 @@ def page_content(
     notes = tables.variant_notes(problems)
     bases = _shared_bases(
         {name: problem.basis for name, problem in problems.items()},
-        {name: [law.node for law in problem.laws] for name, problem in problems.items()},
+        {name: [law.coordinate.node for law in problem.laws] for name, problem in problems.items()},
     )
     drawings = {name: shared.drawing for shared in bases for name in shared.variants}
     variants = {
@@ -79,10 +79,8 @@ def modes_content(
     case, checks
         As `bumpstop.report.write_modes` takes them.
     """
-    stops = {
-        name: [law.node for law in case.problems[name].laws] if name in case.problems else []
-        for name in case.bases
-    }
+    laws = {name: problem.laws for name, problem in case.problems.items()}
+    stops = {name: [law.coordinate.node for law in laws.get(name, ())] for name in case.bases}
     bases = _shared_bases(case.bases, stops)
     checked = [(name, some) for name, some in checks.items() if some]
     content = _head(case, checks) | {

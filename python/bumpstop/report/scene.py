@@ -52,7 +52,7 @@ def motion_scene(response: Response, watched: tuple[str, str], drawing: Outline)
     modal = response.motion(0, times)
     travel = np.einsum("pam,fm->fpa", drawing.shapes, modal[:: max(len(modal) // 500, 1)])
     reach = np.abs(travel).max(axis=(0, 1))
-    normals = [np.abs(stop.normal) * reach.max() for stop in fixed_stops(problem)]
+    normals = [np.abs(stop.coordinate.direction) * reach.max() for stop in fixed_stops(problem)]
     view = view_of(drawing.positions, np.max([reach, *normals], axis=0))
     furthest = float(np.linalg.norm(travel @ view.T, axis=-1).max())
     drawn = _drawing(drawing, problem.basis, view)
@@ -172,8 +172,8 @@ def _stop(
     return {
         "name": law.name,
         "label": f"{law.name}, {_give(law)}",
-        "point": drawing.nodes[law.node],
-        "normal": view @ np.array(law.normal),
+        "point": drawing.nodes[law.coordinate.node],
+        "normal": view @ np.array(law.coordinate.direction),
         "gap": law.gap,
         "deepest": max(0.0, -float(response.sample("gap", law.name, times=times).min())),
     }

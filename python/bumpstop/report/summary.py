@@ -199,8 +199,8 @@ def _stop(law: Stop) -> str:
     gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
     damping = f", {with_unit(law.damping, 'N s/m')}" if law.damping else ", no damping"
     return (
-        f"{law.name}: a {law.obstacle} {_where(law.coordinate)} that pushes along "
-        f"{_vector(law.normal)}, {gap}, {with_unit(law.stiffness, 'N/m')}{damping}{_friction(law)}"
+        f"{law.name}: a {law.obstacle} {_pushing(law.coordinate)}, {gap}, "
+        f"{with_unit(law.stiffness, 'N/m')}{damping}{_friction(law)}"
     )
 
 
@@ -219,16 +219,20 @@ def _where(along: Coordinate) -> str:
     return f"at {along.node}" if along.other is None else f"between {along.node} and {along.other}"
 
 
+def _pushing(along: Coordinate) -> str:
+    return f"{_where(along)} that pushes along {_vector(along.direction)}"
+
+
 def _law(law: Law) -> str:
     if isinstance(law, SpringLaw):
         slopes = ", ".join(with_unit(slope, "N/m") for slope in law.stiffness)
-        where = f"{_where(law.coordinate)} along {_vector(law.direction)}"
+        where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"
         return f"{law.name}: a spring {where}, {slopes}"
     if isinstance(law, RigidStop):
         gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
+        restitution = f"restitution {_plain(law.restitution)}"
         return (
-            f"{law.name}: a rigid {law.obstacle} {_where(law.coordinate)} that pushes along "
-            f"{_vector(law.normal)}, {gap}, restitution {_plain(law.restitution)}"
+            f"{law.name}: a rigid {law.obstacle} {_pushing(law.coordinate)}, {gap}, {restitution}"
         )
     return law.name
 
