@@ -1,6 +1,7 @@
 """``bumpstop modes``, ``verify``, ``report`` and ``schema``."""
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 import bumpstop as bs
 from bumpstop.cli import main
 from bumpstop.io.case import load_case
+from bumpstop.io.schema import case_schema
 
 CASES = Path(__file__).parents[2] / "cases"
 SDNL32 = CASES / "sdnl32" / "case.toml"
@@ -199,6 +201,52 @@ def test_schema(capsys: pytest.CaptureFixture[str]) -> None:
         assert table["additionalProperties"] is False
         for key, field in table["properties"].items():
             assert "description" in field or "$ref" in field, key
+    assert "null" not in json.dumps(schema)  # TOML has none
+
+
+def test_the_schema_of_a_stop_knows_what_belongs_together() -> None:
+    place, kind = case_schema()["$defs"]["StopTable"]["allOf"]
+    ways = [each["required"] for each in (*place["oneOf"], *kind["oneOf"])]
+    assert ways == [["node", "normal"], ["terms"], ["stiffness"], ["restitution"]]
+
+
+@pytest.mark.parametrize(
+    ("text", "good"),
+    [
+        ("18 kN/m", True),
+        ("18kN/m", True),
+        ("-1.5e-3 N/m", True),
+        (".5 N/m", True),
+        ("much", False),
+        ("18", False),
+        ("1e5", False),
+        ("kN/m", False),
+    ],
+)
+def test_the_schema_knows_how_units_are_written(text: str, good: bool) -> None:
+    number, written = case_schema()["$defs"]["StopTable"]["properties"]["stiffness"]["anyOf"]
+    assert number == {"type": "number", "exclusiveMinimum": 0}
+    assert (re.search(written["pattern"], text) is not None) == good
+
+
+def test_the_schema_takes_what_the_cases_write() -> None:
+    """Quantities of all shipped cases, where one stands alone: in lists they are alike."""
+    properties = {
+        key: field
+        for table in case_schema()["$defs"].values()
+        for key, field in table["properties"].items()
+    }
+    seen = 0
+    for file in CASES.glob("*/case.toml"):
+        for key, text in re.findall(r'^(\w+) = "([^"]*)"', file.read_text(), re.MULTILINE):
+            patterns = [
+                kind["pattern"]
+                for kind in properties.get(key, {}).get("anyOf", ())
+                if "pattern" in kind
+            ]
+            seen += len(patterns)
+            assert all(re.search(pattern, text) for pattern in patterns), (file, key, text)
+    assert seen > 0
 
 
 FRAME = CASES / "nafems-fv3" / "case.toml"

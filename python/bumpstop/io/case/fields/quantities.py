@@ -44,6 +44,10 @@ __all__ = [
     "read_number",
 ]
 
+_WITHOUT_UNIT = r"^\s*[-+]?(\d+\.?\d*|\.\d+)"
+_WITH_UNIT = _WITHOUT_UNIT + r"(?![eE][-+]?\d+\s*$)([eE][-+]?\d+)?\s*[^\d\s.]"
+"""How a number begins, and one that a unit follows, for editors; `read_quantity` knows the rest."""
+
 _NUMBER = Dimension("a pure number", "", "0.3")
 _LENGTH = Dimension("a length", "m", "14 mm")
 _PRESSURE = Dimension("a pressure", "Pa", "67 GPa")
@@ -127,7 +131,8 @@ def _quantity(
 
     bounds = {"exclusiveMinimum": above, "minimum": least}
     number = {"type": "number"} | {key: bound for key, bound in bounds.items() if bound is not None}
-    return Plain(read, {"anyOf": [number, {"type": "string"}], "examples": [dimension.example]})
+    text = {"type": "string", "pattern": _WITH_UNIT if dimension.unit else _WITHOUT_UNIT}
+    return Plain(read, {"anyOf": [number, text], "examples": [dimension.example]})
 
 
 def _vector(dimension: Dimension, length: int = 3) -> Plain:

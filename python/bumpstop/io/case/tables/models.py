@@ -23,7 +23,7 @@ def model_of(table: type[Table]) -> type[BaseModel]:
     }
     made: type[BaseModel] = create_model(
         table.__name__,
-        __config__=ConfigDict(extra="forbid"),
+        __config__=ConfigDict(extra="forbid", json_schema_extra=table.rules()),
         __doc__=table.__doc__,
         __module__=table.__module__,
         **fields,

@@ -1,6 +1,6 @@
 """``[stops.NAME]``."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from bumpstop.io.case.fields.laws import FrictionCoefficients, Sliding
 from bumpstop.io.case.fields.quantities import DampingConstant, Length, Number3, Ratio, Stiffness
@@ -58,3 +58,10 @@ class StopTable(Table):
     tangential_damping: DampingConstant = Field(
         default=0.0, description="Damping of a contact that sticks, in N s/m"
     )
+
+    @classmethod
+    def rules(cls) -> dict[str, Any]:
+        """Return that a stop has a node and normal or terms, and a stiffness or restitution."""
+        place = [{"required": ["node", "normal"]}, {"required": ["terms"]}]
+        kind = [{"required": ["stiffness"]}, {"required": ["restitution"]}]
+        return {"allOf": [{"oneOf": place}, {"oneOf": kind}]}

@@ -75,6 +75,11 @@ class Table:
         vars(made).update(values)
         return made
 
+    @classmethod
+    def rules(cls) -> dict[str, Any]:
+        """Return what the JSON schema of the table says beside its keys."""
+        return {}
+
     def replaced(self, **values: Any) -> Self:
         """Return the same table with other values of some keys, which are not checked."""
         return self.unchecked(**(vars(self) | values))
