@@ -93,13 +93,21 @@ def test_kinetic_energy_beyond_the_basis_is_told(
     assert [line.partition(" is lost")[0] for line in remarks[1:]] == expected
 
 
-def test_a_field_that_no_mode_has_is_refused() -> None:
-    """A and B fly apart, which is not in the flight of both."""
-    apart = two_masses(2.0, 2.0, modes=2)
-    assert apart.model is not None
-    stretch = ModalBasis.from_vectors(apart.model, apart.shapes[:, 1:])
+def test_a_field_that_no_mode_has_is_lost_or_refused() -> None:
+    """Flight along x is nothing that a mode along y, or one that stretches the spring, has."""
+    both = two_masses(3.0, 1.0, modes=2)
+    assert both.model is not None
+    stretch = ModalBasis.from_vectors(both.model, both.shapes[:, 1:])
+    (told,) = RigidTranslation((1, 0, 0)).remarks(stretch)
+    assert told.startswith("100 % of the kinetic energy of the initial translation is lost")
+    point = Structure(
+        nodes={"P": (0, 0, 0)},
+        masses=[bs.PointMass("P", node="P", mass=4.0)],
+        supports=[Support(nodes="P", fixed=ALL[2:])],
+    )
+    across = ModalBasis.from_vectors(point, np.eye(6)[:, 1:2])
     with pytest.raises(InputError, match="no mode takes part in this translation"):
-        RigidTranslation((1, 0, 0)).modal_state(stretch)
+        RigidTranslation((1, 0, 0)).modal_state(across)
 
 
 @pytest.mark.parametrize(

@@ -20,9 +20,6 @@ __all__ = ["VelocityField"]
 _ROUNDING = 1e-9
 """A velocity this small beside the largest of its kind is rounding."""
 
-_NOTHING = 1e-18
-"""A share of the kinetic energy this small is the rounding of a velocity that no mode has."""
-
 _TOLD = 0.01
 """The share of the kinetic energy beyond the basis from which a user is told."""
 
@@ -60,7 +57,7 @@ class VelocityField(ABC):
         field = self.field(model)
         self._refuse_held(model, field)
         velocity = basis.project_field(field)
-        if field.any() and not velocity @ velocity > _NOTHING * _twice_energy(model, field):
+        if field.any() and not velocity.any():
             what = f"no mode takes part in this {self.motion}"
             raise InputError(what, key=self.key, value=self._fastness)
         return np.zeros(len(velocity)), velocity
