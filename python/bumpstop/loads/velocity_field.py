@@ -71,7 +71,7 @@ class VelocityField(ABC):
         lost = given - velocity @ velocity
         if not lost > _TOLD * given:
             return ()
-        share = f"{100.0 * lost / given:.2g} %"
+        share = f"{100.0 * lost / given:.3g} %"
         more = "more modes hold more of it"
         return (
             f"{share} of the kinetic energy of the initial {self.motion} is lost: "
