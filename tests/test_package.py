@@ -15,6 +15,11 @@ def test_every_public_name_is_there(name: str) -> None:
     assert name in dir(bs)
 
 
+def test_names_are_listed_once() -> None:
+    names = dir(bs)
+    assert len(names) == len(set(names))
+
+
 def test_an_unknown_name_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="has no attribute 'Sprung'"):
         bs.Sprung  # noqa: B018  # reading it is the test

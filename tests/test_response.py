@@ -147,6 +147,13 @@ class TestOscillator:
         impulse = 2.0 * 1e5 * 0.5 / self.closed**2
         np.testing.assert_allclose(impacts["impulse"], impulse, rtol=1e-12)
 
+    def test_a_stop_that_presses_from_the_start_closes_without_speed(self) -> None:
+        basis = bs.ModalBasis.from_modes(frequency=[10.0], shapes={("P", "dx"): [1.0]})
+        stop = bs.Stop("stop", node="P", normal=(1, 0, 0), gap=-1e-3, stiffness=1e5)
+        response = bs.simulate(bs.Problem(basis, laws=[stop], duration=0.1))
+        (speed, *_) = response.impact_table()["closing_speed"]
+        assert str(speed) == "0.0"
+
     def test_events_tell_their_states(self) -> None:
         events = bs.simulate(oscillator(duration=0.02), method="exact").events
         assert list(events.columns) == ["time", "law", "guard", "before", "after"]

@@ -22,7 +22,10 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(FIXED_STEP_METHODS, ("dt", "beyond_stability_limit")),
 }
 """What each method can be told."""
-MOST_STEPS = 1e9
+LARGEST_RECORD = 4 * 2**30
+"""Memory in bytes that the core gives to the steps of a run."""
+LANES = 8
+"""The core keeps the modes of a step in blocks of so many."""
 MOST_ENERGY = 1e200
 """Twice the energy, in J, above which products of motions leave the range of numbers."""
 
@@ -194,9 +197,11 @@ def _checked_step(
     if step > duration:
         hint = f"the duration is {duration:g} s"
         raise InputError("must not exceed the duration", key="dt", value=dt, hint=hint)
-    if duration / step > MOST_STEPS:
-        hint = f"take at least {duration / MOST_STEPS:.3g} s"
-        raise InputError(f"makes more than {MOST_STEPS:.0e} steps", key="dt", value=dt, hint=hint)
+    most = _most_steps(len(model.displacement))
+    if duration / step > most:
+        what = f"makes {duration / step:.2g} steps, more than the {most:.2g} that memory holds"
+        hint = f"take at least {duration / most:.3g} s"
+        raise InputError(what, key="dt", value=dt, hint=hint)
     if step > limit and not beyond_limit:
         raise InputError(
             f"is above the stability limit of {limit:.6g} s of the {method} method",
@@ -205,3 +210,9 @@ def _checked_step(
             hint="take a smaller step, or ask for it with beyond_stability_limit",
         )
     return step
+
+
+def _most_steps(modes: int) -> int:
+    """Return how many steps of so many modes the core keeps, without those about both ends."""
+    numbers = LANES * -(-modes // LANES)
+    return LARGEST_RECORD // (8 * numbers) - 4

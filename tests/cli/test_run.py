@@ -477,6 +477,7 @@ def test_ctrl_c(call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
             "'--mehtod'; did you mean '--method'?",
         ),
         (["run", str(SDNL32), "--outt=x"], "there is no option '--outt'; did you mean '--out'"),
+        (["run", str(SDNL32), "--json=yes"], "error: --json takes no value (got 'yes'); see 'bump"),
         (["run", str(SDNL32), "--method"], "argument --method: expected one argument; see 'bump"),
         (["run", str(SDNL32), "--method", "rk4"], "--method: unknown method (got 'rk4'); known:"),
         (["run", str(SDNL32), "--method", "exakt"], "did you mean 'exact'?"),

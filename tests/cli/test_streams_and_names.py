@@ -72,3 +72,13 @@ def test_folders_in_any_spelling(
     with xr.open_dataset(place / "Ergebnisse/stiff/response.nc", engine="h5netcdf") as file:
         assert file.attrs["case"] == told
     assert "SDNL32" in (place / "Ergebnisse" / "report.html").read_text(encoding="utf-8")
+
+
+def test_an_interrupt_after_the_work_is_too_late() -> None:
+    """Else Python, about to end, would print a traceback beside the status of good work."""
+    script = (
+        "import os, signal, sys; from bumpstop.cli import main; sys.argv[1:] = ['--version']; "
+        "status = main(); os.kill(os.getpid(), signal.SIGINT); sys.exit(status)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -174,6 +174,8 @@ def test_overrides_reach_into_lists_and_add_tables(load: Load) -> None:
         ('[variants.x]\n"basis.modes.first" = 1', "there is no table that could hold 'first'"),
         ('[variants.x]\n"supports.1.fixed" = ["dx"]', "the list there has items 0 to 0"),
         ('[variants.x]\n"supports.-1.fixed" = ["dx"]', "the list there has items 0 to 0"),
+        ('[variants.x]\n"title" = "Mine"', "cannot be changed by a variant"),
+        ('[variants.x]\n"description" = "Mine"', "cannot be changed by a variant"),
         ('[variants.x]\n"variants.x" = 1', "cannot be changed by a variant"),
         ('[variants.x]\n"references.0.times" = [1]', "cannot be changed by a variant"),
         ('[variants.x]\n"stops.floor.gpa" = 1', "unknown key (got 1); did you mean 'gap'?"),

@@ -32,7 +32,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         from bumpstop.cli.main import run_command_line
 
-        return run_command_line(arguments)
+        status = run_command_line(arguments)
+        if arguments is None:
+            _finish_in_peace()
+        return status
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return INTERRUPTED
@@ -40,3 +43,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         gc.freeze()  # else Python goes through all of them once more when it exits
         if collecting:
             gc.enable()
+
+
+def _finish_in_peace() -> None:
+    """Let an interrupt be too late once the work of the process is done.
+
+    Nothing but Python's own end is left, where it would end in a traceback.
+    """
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -6,6 +6,7 @@ never taken for a mistake in the arguments. A command's module is imported by it
 
 from __future__ import annotations
 
+import re
 from argparse import ArgumentParser, ArgumentTypeError, BooleanOptionalAction, Namespace
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -62,6 +63,9 @@ class _Parser(ArgumentParser):
     work: Callable[[Namespace], int]
 
     def error(self, message: str) -> NoReturn:
+        switch = re.fullmatch("argument (.*): ignored explicit argument (.*)", message)
+        if switch:
+            message = f"{switch[1]} takes no value (got {switch[2]})"
         raise InputError(message, hint=f"see '{self.prog} --help'")
 
     def refuse(self, word: str) -> NoReturn:

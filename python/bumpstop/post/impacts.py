@@ -45,7 +45,9 @@ def impact_table(response: Response) -> Table:
 def impacts_of(response: Response, stop: int) -> dict[str, FloatArray]:
     """Return the impacts of one stop, counted from 0, in the order of closing."""
     core = response.history.impacts(stop)
-    return core | {"duration": core["end"] - core["start"]}
+    # A stop that is closed from the start closes with the speed -0.0, which is 0.
+    speed = core["closing_speed"] + 0.0
+    return core | {"closing_speed": speed, "duration": core["end"] - core["start"]}
 
 
 def event_table(response: Response) -> Table:

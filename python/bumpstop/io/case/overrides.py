@@ -11,7 +11,7 @@ from bumpstop.io.case.keys import KeyPath, dotted
 
 __all__ = ["overridden", "overridden_paths"]
 
-_OWN = ("variants", "references")
+_OWN = ("title", "description", "variants", "references")
 """Keys that belong to the case, not to a variant of it."""
 
 
