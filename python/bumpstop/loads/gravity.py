@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING
 
 from bumpstop.arguments import FloatArray, Vector, name, vector
-from bumpstop.errors import InputError
+from bumpstop.loads.inertia import mass_times
 
 if TYPE_CHECKING:
     from bumpstop.loads.time import TimeFunction
@@ -58,8 +58,4 @@ class Gravity:
         InputError
             If the basis was not made from a structure, so that it has no mass matrix.
         """
-        if basis.model is None or basis.mass_rows is None:
-            hint = "give a NodalForce, or make the basis from a structure"
-            raise InputError("needs the masses of a structure", key="acceleration", hint=hint)
-        field = basis.model.rigid_field(translation=self.acceleration)
-        return basis.mass_rows @ field
+        return mass_times(self.acceleration, basis)
