@@ -143,6 +143,8 @@ def test_json(call: Output) -> None:
     check = record["variants"][0]["references"][2]
     assert check.keys() == {
         "quantity",
+        "node",
+        "dof",
         "time",
         "value",
         "reference",
@@ -150,12 +152,38 @@ def test_json(call: Output) -> None:
         "tolerance",
         "passed",
     }
+    assert (check["node"], check["dof"]) == ("B", "dy")
     assert (check["quantity"], check["time"], check["reference"]) == (
         "displacement",
         3e-3,
         -4.92e-3,
     )
     assert check["deviation"] == pytest.approx(abs(check["value"] / -4.92e-3 - 1), rel=1e-9)
+
+
+def test_json_says_what_a_reference_is_of(call: Output, tmp_path: Path) -> None:
+    wanted: list[dict[str, Any]] = [
+        {"quantity": "stop_force", "stop": "spring", "times": [0.01], "values": [1.0]},
+        {"quantity": "gauge", "gauge": "strain", "times": [0.01], "values": [1.0]},
+        {"quantity": "peak_force", "stop": "spring", "impact": 1, "values": [1.0]},
+        {"quantity": "modal_displacement", "mode": 2, "times": [0.01], "values": [1.0]},
+        {"quantity": "energy", "term": "kinetic", "times": [0.01], "values": [1.0]},
+        {"quantity": "frequency", "mode": 3, "values": [1.0]},
+    ]
+    text = SDNL32.read_text().partition("[variants")[0]
+    for reference in wanted:
+        lines = [f"{key} = {json.dumps(value)}" for key, value in reference.items()]
+        text += "\n".join(["[[references]]", *lines, "tolerance = 1\n"])
+    file = tmp_path / "case.toml"
+    file.write_text(text, encoding="utf-8")
+    _, output, _ = call("run", str(file), "--json")
+    found = json.loads(output)["variants"][0]["references"]
+    shared = {"time", "value", "reference", "deviation", "tolerance", "passed"}
+    for record, reference in zip(found, wanted, strict=True):
+        of = {key: value for key, value in record.items() if key not in shared}
+        given = {key: reference[key] for key in reference if key not in ("times", "values")}
+        assert of == given
+    assert found[-1]["time"] is None
 
 
 def test_a_failed_check_is_status_1(call: Output, strict: Path) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from bumpstop.cli.solve import CaseResult, VariantResult
 from bumpstop.modal.basis import ModalBasis
-from bumpstop.post.references import Check
+from bumpstop.post.references import REFERENCE_QUANTITIES, Check
 from bumpstop.response import Response
 
 __all__ = ["case_record"]
@@ -64,10 +64,12 @@ def _run_record(response: Response) -> dict[str, Any]:
 
 
 def _check_record(check: Check) -> dict[str, Any]:
-    mode = {} if check.mode is None else {"mode": check.mode}
+    of = dict(zip(REFERENCE_QUANTITIES[check.quantity], check.target[1:], strict=False))
+    if check.mode is not None:
+        of = {"mode": check.mode}
     return {
         "quantity": check.quantity,
-        **mode,
+        **of,
         "time": check.time,
         "value": check.value,
         "reference": check.reference,
