@@ -115,6 +115,12 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A resolution out of its range.
+    #[error("the resolution of a rigid stop must be from 1e-13 to 1 (got {value})")]
+    Resolution {
+        /// Its value.
+        value: f64,
+    },
     /// A run starts inside a rigid stop.
     #[error("the run starts {depth:e} m inside rigid stop {law} (counted from 0 among the laws)")]
     InsideStop {

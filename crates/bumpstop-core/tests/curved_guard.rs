@@ -40,12 +40,13 @@ impl Law for Circle {
     fn state_name(&self, state: State) -> Cow<'static, str> {
         if state == INSIDE { "inside" } else { "outside" }.into()
     }
-    fn initial_state(&self, motion: &LocalMotion) -> State {
+    fn initial_state(&self, motion: &LocalMotion, _: impl Fn(State) -> LocalMotion) -> State {
         let clearance = self.clearance(motion.position(), motion.velocity());
         if clearance > 0.0 { INSIDE } else { OUTSIDE }
     }
     fn sampled_state(&self, _: State, position: &Local<f64>, velocity: &Local<f64>) -> State {
-        self.initial_state(&LocalMotion::of(*position, *velocity))
+        let motion = LocalMotion::of(*position, *velocity);
+        self.initial_state(&motion, |_| motion)
     }
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
         let piece = self.piece(state).unwrap_or(Piece::FREE);
@@ -84,7 +85,7 @@ impl Law for Circle {
             -clearance
         }
     }
-    fn next_state(&self, state: State, _: usize, _: impl FnOnce() -> LocalMotion) -> State {
+    fn next_state(&self, state: State, _: usize, _: impl Fn(State) -> LocalMotion) -> State {
         if state == INSIDE { OUTSIDE } else { INSIDE }
     }
     fn stored<T: Number>(&self, _: State, _: &Local<T>) -> T {

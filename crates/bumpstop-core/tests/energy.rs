@@ -25,8 +25,8 @@ impl Law for Corrupted {
     fn state_name(&self, state: State) -> Cow<'static, str> {
         self.stop.state_name(state)
     }
-    fn initial_state(&self, motion: &LocalMotion) -> State {
-        self.stop.initial_state(motion)
+    fn initial_state(&self, motion: &LocalMotion, acting: impl Fn(State) -> LocalMotion) -> State {
+        self.stop.initial_state(motion, acting)
     }
     fn sampled_state(&self, previous: State, x: &Local<f64>, v: &Local<f64>) -> State {
         self.stop.sampled_state(previous, x, v)
@@ -50,9 +50,9 @@ impl Law for Corrupted {
         &self,
         state: State,
         guard: usize,
-        motion: impl FnOnce() -> LocalMotion,
+        acting: impl Fn(State) -> LocalMotion,
     ) -> State {
-        self.stop.next_state(state, guard, motion)
+        self.stop.next_state(state, guard, acting)
     }
     fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T {
         self.stop.stored(state, position)

@@ -29,7 +29,7 @@ impl Law for Constant {
     fn state_name(&self, _: State) -> Cow<'static, str> {
         "constant".into()
     }
-    fn initial_state(&self, _: &LocalMotion) -> State {
+    fn initial_state(&self, _: &LocalMotion, _: impl Fn(State) -> LocalMotion) -> State {
         State::FIRST
     }
     fn sampled_state(&self, state: State, _: &Local<f64>, _: &Local<f64>) -> State {
@@ -47,7 +47,7 @@ impl Law for Constant {
     fn guard(&self, _: State, _: usize) -> Guard {
         unreachable!("it has no guards")
     }
-    fn next_state(&self, state: State, _: usize, _: impl FnOnce() -> LocalMotion) -> State {
+    fn next_state(&self, state: State, _: usize, _: impl Fn(State) -> LocalMotion) -> State {
         state
     }
     fn stored<T: Number>(&self, _: State, _: &Local<T>) -> T {

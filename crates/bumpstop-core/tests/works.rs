@@ -43,8 +43,8 @@ impl Law for Tampered {
     fn state_name(&self, state: State) -> Cow<'static, str> {
         self.stop.state_name(state)
     }
-    fn initial_state(&self, motion: &LocalMotion) -> State {
-        self.stop.initial_state(motion)
+    fn initial_state(&self, motion: &LocalMotion, acting: impl Fn(State) -> LocalMotion) -> State {
+        self.stop.initial_state(motion, acting)
     }
     fn sampled_state(&self, before: State, position: &Local<f64>, velocity: &Local<f64>) -> State {
         self.stop.sampled_state(before, position, velocity)
@@ -81,9 +81,9 @@ impl Law for Tampered {
         &self,
         state: State,
         guard: usize,
-        motion: impl FnOnce() -> LocalMotion,
+        acting: impl Fn(State) -> LocalMotion,
     ) -> State {
-        self.stop.next_state(state, guard, motion)
+        self.stop.next_state(state, guard, acting)
     }
     fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T {
         self.stop.stored(state, position)

@@ -149,8 +149,18 @@ pub struct RigidStop(pub law::RigidStop);
 #[pymethods]
 impl RigidStop {
     #[new]
-    fn new(row: PyReadonlyArray1<f64>, gap: f64, restitution: f64) -> PyResult<Self> {
+    #[pyo3(signature = (row, gap, restitution, resolution=None))]
+    fn new(
+        row: PyReadonlyArray1<f64>,
+        gap: f64,
+        restitution: f64,
+        resolution: Option<f64>,
+    ) -> PyResult<Self> {
         law::RigidStop::new(values(&row), gap, restitution)
+            .and_then(|stop| match resolution {
+                Some(resolution) => stop.with_resolution(resolution),
+                None => Ok(stop),
+            })
             .map(Self)
             .map_err(core_error)
     }

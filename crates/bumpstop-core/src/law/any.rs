@@ -66,8 +66,8 @@ impl Law for AnyLaw {
         ask!(self, law => law.state_name(state))
     }
 
-    fn initial_state(&self, motion: &LocalMotion) -> State {
-        ask!(self, law => law.initial_state(motion))
+    fn initial_state(&self, motion: &LocalMotion, acting: impl Fn(State) -> LocalMotion) -> State {
+        ask!(self, law => law.initial_state(motion, acting))
     }
 
     #[inline(always)]
@@ -102,6 +102,10 @@ impl Law for AnyLaw {
         ask!(self, law => law.restitution())
     }
 
+    fn resolution(&self) -> f64 {
+        ask!(self, law => law.resolution())
+    }
+
     #[inline(always)]
     fn constraint(&self, state: State) -> Option<Constraint> {
         ask!(self, law => law.constraint(state))
@@ -134,9 +138,9 @@ impl Law for AnyLaw {
         &self,
         state: State,
         guard: usize,
-        motion: impl FnOnce() -> LocalMotion,
+        acting: impl Fn(State) -> LocalMotion,
     ) -> State {
-        ask!(self, law => law.next_state(state, guard, motion))
+        ask!(self, law => law.next_state(state, guard, acting))
     }
 
     #[inline(always)]

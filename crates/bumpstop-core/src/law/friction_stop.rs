@@ -193,13 +193,14 @@ impl FrictionStop {
 
     /// Stick or slip where contact begins, with the anchor set where the structure is: decided by
     /// the first derivatives of both forces that do not vanish.
-    fn begin(&self, motion: &LocalMotion) -> State {
-        let anchor = motion.position()[SLIDING];
-        let sticking = self.stick_force(anchor).series(motion);
+    fn begin(&self, acting: impl Fn(State) -> LocalMotion) -> State {
+        let anchor = acting(Self::stick(0.0)).position()[SLIDING];
+        let motion = acting(Self::stick(anchor));
+        let sticking = self.stick_force(anchor).series(&motion);
         let cone = self
             .push()
             .times(self.friction.static_coefficient)
-            .series(motion);
+            .series(&motion);
         let Some((first, _)) = sticking.iter().find(|(force, zero)| force.abs() > *zero) else {
             return Self::stick(anchor);
         };
@@ -209,21 +210,22 @@ impl FrictionStop {
             .zip(&sticking)
             .map(|(cone, force)| (cone.0 + sign * force.0, cone.1 + force.1));
         match room.into_iter().find(|(room, zero)| room.abs() > *zero) {
-            Some((room, _)) if room < 0.0 => self.break_loose(sign, motion),
+            Some((room, _)) if room < 0.0 => self.break_loose(sign, acting),
             _ => Self::stick(anchor),
         }
     }
 
-    /// After the slider has broken loose.
-    fn break_loose(&self, sign: f64, motion: &LocalMotion) -> State {
-        let (progress, zero) = self.progress(sign, false).value(motion);
-        let slider = self.slider_in(sign, motion);
+    /// After the slider has broken loose: its force may have jumped, and accelerations with it.
+    fn break_loose(&self, sign: f64, acting: impl Fn(State) -> LocalMotion) -> State {
+        let motion = acting(Self::slip(sign, 0.0));
+        let (progress, zero) = self.progress(sign, false).value(&motion);
+        let slider = self.slider_in(sign, &motion);
         if progress >= -zero {
             Self::slip(sign, slider)
-        } else if self.progress(sign, true).value(motion).0 > 0.0 {
+        } else if self.progress(sign, true).value(&motion).0 > 0.0 {
             Self::held(sign, slider)
         } else {
-            self.stick_again(sign, motion)
+            self.stick_again(sign, &motion)
         }
     }
 
@@ -309,11 +311,11 @@ impl Law for FrictionStop {
         names[state.number as usize].into()
     }
 
-    fn initial_state(&self, motion: &LocalMotion) -> State {
-        match self.normal.initial_state(motion) {
+    fn initial_state(&self, motion: &LocalMotion, acting: impl Fn(State) -> LocalMotion) -> State {
+        match self.normal.initial_state(motion, &acting) {
             Stop::OPEN => Self::OPEN,
             Stop::RELEASED => Self::RELEASED,
-            _ => self.begin(motion),
+            _ => self.begin(acting),
         }
     }
 
@@ -406,20 +408,20 @@ impl Law for FrictionStop {
         &self,
         state: State,
         guard: usize,
-        motion: impl FnOnce() -> LocalMotion,
+        acting: impl Fn(State) -> LocalMotion,
     ) -> State {
         let normal = Self::normal_state(state);
         if guard < self.normal.guard_count(normal) {
-            return match self.normal.next_state(normal, guard, LocalMotion::default) {
+            return match self.normal.next_state(normal, guard, &acting) {
                 Stop::OPEN => Self::OPEN,
                 Stop::RELEASED => Self::RELEASED,
-                _ => self.begin(&motion()),
+                _ => self.begin(acting),
             };
         }
-        let motion = motion();
         let Some(sign) = Self::sliding(state) else {
-            return self.break_loose(if guard == 1 { 1.0 } else { -1.0 }, &motion);
+            return self.break_loose(if guard == 1 { 1.0 } else { -1.0 }, acting);
         };
+        let motion = acting(state);
         let held = Self::HELD.contains(&state.number);
         let (other, zero) = self.progress(sign, !held).value(&motion);
         if other <= zero {

@@ -122,8 +122,9 @@ pub trait Law: Clone + Send + Sync {
     /// The name of a state.
     fn state_name(&self, state: State) -> Cow<'static, str>;
 
-    /// The state at the start of a run, from the local motion while the law does not act.
-    fn initial_state(&self, motion: &LocalMotion) -> State;
+    /// The state at the start of a run, from the local motion while the law does not act; `acting`
+    /// tells the motion that follows from one of its states.
+    fn initial_state(&self, motion: &LocalMotion, acting: impl Fn(State) -> LocalMotion) -> State;
 
     /// The state that a fixed-step scheme sees at one sampled instant, after the one that it saw
     /// at the step before; before the first step that is [`State::FIRST`].
@@ -146,6 +147,11 @@ pub trait Law: Clone + Send + Sync {
     /// and the guard of [`RigidStop`]; `None` for laws that make forces.
     fn restitution(&self) -> Option<f64> {
         None
+    }
+
+    /// The part of the motion below which rebounds of a law with restitution end in rest.
+    fn resolution(&self) -> f64 {
+        0.0
     }
 
     /// What a state holds where it is; it lasts until the reaction reaches zero.
@@ -178,10 +184,14 @@ pub trait Law: Clone + Send + Sync {
         self.guard(state, index).function.at(position, velocity)
     }
 
-    /// The state that follows when a guard has reached zero. `motion` tells the local motion at
-    /// that instant, at some cost.
-    fn next_state(&self, state: State, guard: usize, motion: impl FnOnce() -> LocalMotion)
-    -> State;
+    /// The state that follows when a guard has reached zero. `acting` tells the local motion at
+    /// that instant if the law goes on in a state, at some cost: accelerations follow its force.
+    fn next_state(
+        &self,
+        state: State,
+        guard: usize,
+        acting: impl Fn(State) -> LocalMotion,
+    ) -> State;
 
     /// Energy stored, in J.
     fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T;

@@ -16,7 +16,14 @@ pub struct RigidStop {
     rows: [Vec<f64>; 1],
     obstacle: Plane,
     restitution: f64,
+    resolution: f64,
 }
+
+/// Rebounds lower than this part of the motion are not followed, unless a stop says otherwise.
+const RESOLUTION: f64 = 1e-12;
+
+/// The finest resolution: distances below it are lost in rounding.
+const FINEST: f64 = 1e-13;
 
 impl RigidStop {
     /// No contact, or the instant of an impact.
@@ -38,7 +45,20 @@ impl RigidStop {
             rows: [row],
             obstacle: Plane { gap },
             restitution,
+            resolution: RESOLUTION,
         })
+    }
+
+    /// The same, at which rebounds lower than another part of the motion end in rest.
+    ///
+    /// # Errors
+    /// When the resolution is not from 1e-13 to 1.
+    pub fn with_resolution(mut self, resolution: f64) -> Result<Self> {
+        if !(FINEST..=1.0).contains(&resolution) {
+            return Err(Error::Resolution { value: resolution });
+        }
+        self.resolution = resolution;
+        Ok(self)
     }
 }
 
@@ -57,6 +77,10 @@ impl Law for RigidStop {
         Some(self.restitution)
     }
 
+    fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
     fn constraint(&self, state: State) -> Option<Constraint> {
         (state == Self::RESTING).then_some(Constraint {
             coordinate: 0,
@@ -64,7 +88,11 @@ impl Law for RigidStop {
         })
     }
 
-    fn initial_state(&self, _motion: &LocalMotion) -> State {
+    fn initial_state(
+        &self,
+        _motion: &LocalMotion,
+        _acting: impl Fn(State) -> LocalMotion,
+    ) -> State {
         Self::OPEN
     }
 
@@ -109,7 +137,7 @@ impl Law for RigidStop {
         &self,
         state: State,
         _guard: usize,
-        _motion: impl FnOnce() -> LocalMotion,
+        _acting: impl Fn(State) -> LocalMotion,
     ) -> State {
         state
     }

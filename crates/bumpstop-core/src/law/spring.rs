@@ -150,7 +150,7 @@ impl Law for Spring {
         format!("segment {}", state.number + 1).into()
     }
 
-    fn initial_state(&self, motion: &LocalMotion) -> State {
+    fn initial_state(&self, motion: &LocalMotion, _acting: impl Fn(State) -> LocalMotion) -> State {
         let x = motion.position()[0];
         let Some(at) = (self.breaks.iter()).position(|b| (x - b).abs() <= motion.zero[0]) else {
             return self.state_at(x);
@@ -214,7 +214,7 @@ impl Law for Spring {
         &self,
         state: State,
         guard: usize,
-        _motion: impl FnOnce() -> LocalMotion,
+        _acting: impl Fn(State) -> LocalMotion,
     ) -> State {
         State::plain(if self.is_lower(state, guard) {
             state.number - 1

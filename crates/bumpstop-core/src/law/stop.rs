@@ -118,7 +118,7 @@ impl Law for Stop {
         ["open", "closed", "released"][state.number as usize].into()
     }
 
-    fn initial_state(&self, motion: &LocalMotion) -> State {
+    fn initial_state(&self, motion: &LocalMotion, _acting: impl Fn(State) -> LocalMotion) -> State {
         let [position, velocity, acceleration, jerk] = &motion.derivatives;
         let zero = &motion.zero;
         let distance = self.obstacle.distance(position);
@@ -203,7 +203,7 @@ impl Law for Stop {
         &self,
         state: State,
         guard: usize,
-        _motion: impl FnOnce() -> LocalMotion,
+        _acting: impl Fn(State) -> LocalMotion,
     ) -> State {
         match (state, guard) {
             (Self::OPEN, _) => Self::CLOSED,

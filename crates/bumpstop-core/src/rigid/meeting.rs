@@ -8,9 +8,6 @@ use crate::error::{Error, Result};
 use crate::law::{Law, State};
 use crate::problem::Problem;
 
-/// Rebounds lower than this part of the motion are not followed: the structure comes to rest.
-const RESOLUTION: f64 = 1e-12;
-
 /// Rates and accelerations below these parts of the terms that they are summed of are zero.
 const NO_RATE: f64 = 64.0 * f64::EPSILON;
 const NO_ACCELERATION: f64 = 1e-12;
@@ -42,9 +39,10 @@ pub(super) struct Outcome {
 impl<L: Law> Meeting<'_, L> {
     /// Changes the velocities; the states stand as they were before.
     pub(super) fn run(&self, q: &[f64], v: &mut [f64], states: &[State]) -> Result<Vec<Outcome>> {
-        let before = self.rates(v);
+        let before = self.rates(v, &vec![0.0; self.sizes.len()]);
+        let speeds = self.directions.sizes(v);
         let impulses = self.strike(&before, v)?;
-        let after = self.rates(v);
+        let after = self.rates(v, &speeds);
         let moment = Moment {
             time: self.time,
             displacement: q,
@@ -69,9 +67,16 @@ impl<L: Law> Meeting<'_, L> {
         law.restitution().unwrap_or(1.0)
     }
 
-    /// Rates of the distances, zero where they are rounding.
-    fn rates(&self, v: &[f64]) -> Vec<f64> {
-        let sizes = self.directions.sizes(v);
+    /// The height below which rebounds are not followed, in m.
+    fn lowest(&self, place: usize) -> f64 {
+        self.problem.laws[self.directions.laws[place]].resolution() * self.sizes[place]
+    }
+
+    /// Rates of the distances, zero where they are rounding: of the terms that they are summed of,
+    /// or of what they were summed of before.
+    fn rates(&self, v: &[f64], before: &[f64]) -> Vec<f64> {
+        let sizes = self.directions.sizes(v).into_iter().zip(before);
+        let sizes = sizes.map(|(now, before)| now.max(*before));
         let rates = self.directions.project(v).into_iter().zip(sizes);
         let rate = |(u, size): (f64, f64)| if u.abs() <= NO_RATE * size { 0.0 } else { u };
         rates.map(rate).collect()
@@ -110,7 +115,7 @@ impl<L: Law> Meeting<'_, L> {
                 self.restitution(place) < 1.0
                     && rate > 0.0
                     && inwards > noise[place]
-                    && rate * rate <= 2.0 * inwards * RESOLUTION * self.sizes[place]
+                    && rate * rate <= 2.0 * inwards * self.lowest(place)
             };
             let more: Vec<usize> = candidates()
                 .filter(|&place| !held.contains(&place) && settles(place))

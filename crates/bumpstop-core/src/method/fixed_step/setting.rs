@@ -37,7 +37,8 @@ impl<'a, P: Law> Setting<'a, P> {
     /// The state of a law at t = 0.
     pub(crate) fn first_state(&self, law: &P) -> State {
         let (position, velocity) = self.local_start(law);
-        let before = law.initial_state(&LocalMotion::of(position, velocity));
+        let motion = LocalMotion::of(position, velocity);
+        let before = law.initial_state(&motion, |_| motion);
         law.sampled_state(before, &position, &velocity)
     }
 

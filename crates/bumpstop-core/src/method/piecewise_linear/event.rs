@@ -9,7 +9,7 @@ use super::phase::{Phase, Phases};
 use super::rows::ComplexBlock;
 use super::signal::{Instant, Signal};
 use crate::history::Event;
-use crate::law::{Affine, Guard, Law, LocalMotion};
+use crate::law::{Affine, Guard, Law, LocalMotion, State};
 use crate::number::{Instructions, Plain};
 use crate::problem::Problem;
 use crate::rigid::{Contacts, TOUCHING};
@@ -80,6 +80,8 @@ impl Watch {
                 let is_held = phases.spectra[phase.spectrum].held.is_some();
                 let start = if !zero {
                     Start::Positive
+                } else if has_jumped(problem, states, index, function, moment) && !same() {
+                    Start::Below
                 } else if flat || is_held || slope.abs() > DOUBTFUL * noise {
                     Start::Zero(None)
                 } else {
@@ -181,6 +183,33 @@ impl Watch {
 /// rounding: the instant of a zero is known to rounding, too.
 const JUST_FIRED: f64 = 16.0;
 
+/// Whether a guard that asks for accelerations is below zero by more than rounding: forces of
+/// other laws or loads have jumped.
+#[inline(always)]
+fn has_jumped<L: Law>(
+    problem: &Problem<L>,
+    states: &[State],
+    law: usize,
+    function: &Affine,
+    moment: Moment<'_>,
+) -> bool {
+    function.acceleration != Affine::ZERO.acceleration
+        && is_below(problem, states, law, function, moment)
+}
+
+#[cold]
+fn is_below<L: Law>(
+    problem: &Problem<L>,
+    states: &[State],
+    law: usize,
+    function: &Affine,
+    moment: Moment<'_>,
+) -> bool {
+    let motion = instant::acting(problem, states, (law, states[law]), moment);
+    let (value, zero) = function.value(&motion);
+    value < -DOUBTFUL * zero
+}
+
 /// The number that the guard of a reaction has instead of a place in its law's list.
 pub(crate) const REACTION: usize = usize::MAX;
 
@@ -239,17 +268,31 @@ pub(crate) fn event_of<L: Law>(
     phase: Phase,
     watch: &Watch,
     crossing: Crossing,
+    [q, v]: [&[f64]; 2],
 ) -> (Event, Guard) {
     let (number, index) = watch.guards[crossing.watched];
     let (law, before) = (&problem.laws[number], phases.states(phase)[number]);
     let guard = law.guard(before, index);
-    let motion = || local_motion(problem, phases, phase, number, crossing.time);
+    let moment = Moment {
+        time: phase.start + crossing.time,
+        displacement: q,
+        velocity: v,
+    };
+    let acting = |state| {
+        let mut motion = instant::acting(problem, phases.states(phase), (number, state), moment);
+        // What the spectrum's rounding may have made counts as zero, too.
+        let found = local_motion(problem, phases, phase, number, crossing.time);
+        for (zero, rounding) in motion.zero.iter_mut().zip(found.zero) {
+            *zero = zero.max(rounding);
+        }
+        motion
+    };
     let event = Event {
         time: phase.start + crossing.time,
         law: number,
         guard: guard.name,
         before,
-        after: law.next_state(before, index, motion),
+        after: law.next_state(before, index, acting),
     };
     (event, guard)
 }

@@ -2,6 +2,7 @@
 
 use crate::law::{Affine, COORDINATES, Law, Local, LocalMotion, Piece, State, project};
 use crate::problem::Problem;
+use crate::rigid::Directions;
 use crate::system::ModalSystem;
 
 /// The structure's state at an instant.
@@ -14,29 +15,46 @@ pub(crate) struct Moment<'a> {
     pub velocity: &'a [f64],
 }
 
-/// The laws' states at t = 0, each from the motion that the structure would have without that
-/// law. One that is just touched is decided by accelerations, and so by what the others push:
-/// they are gone through until nothing changes.
-pub(crate) fn initial_states<L: Law>(problem: &Problem<L>) -> Vec<State> {
-    let moment = Moment {
-        time: 0.0,
-        displacement: &problem.displacement,
-        velocity: &problem.velocity,
-    };
-    let mut states = vec![State::FIRST; problem.laws.len()];
+/// Sets the laws' states at the start, each from the motion that the structure would have without
+/// that law; returns whether one of them changes. One that is just touched is decided by
+/// accelerations, and so by what the others push: they are gone through until nothing changes.
+/// Rigid stops stay as they are, and push with the reactions of those that rest.
+pub(crate) fn initial_states<L: Law>(
+    problem: &Problem<L>,
+    states: &mut [State],
+    moment: Moment<'_>,
+) -> bool {
+    let soft = |law: &L| law.restitution().is_none();
+    let mut changes = false;
     for _ in 0..problem.laws.len() {
         let mut settled = true;
-        for (index, law) in problem.laws.iter().enumerate() {
-            let motion = local_motion(problem, &states, Some(index), index, moment);
-            let state = law.initial_state(&motion);
+        for (index, law) in problem.laws.iter().enumerate().filter(|(_, law)| soft(law)) {
+            let free = local_motion(problem, states, Some(index), index, moment);
+            let state = law.initial_state(&free, |state| {
+                acting(problem, states, (index, state), moment)
+            });
             settled &= state == states[index];
             states[index] = state;
         }
         if settled {
             break;
         }
+        changes = true;
     }
-    states
+    changes
+}
+
+/// The local motion of one law if it goes on in a given state, the others in theirs.
+#[cold]
+pub(crate) fn acting<L: Law>(
+    problem: &Problem<L>,
+    states: &[State],
+    (law, state): (usize, State),
+    moment: Moment<'_>,
+) -> LocalMotion {
+    let mut following = states.to_vec();
+    following[law] = state;
+    local_motion(problem, &following, None, law, moment)
 }
 
 /// Slope and curvature of a function of one law's local motion; zero where they are rounding.
@@ -92,6 +110,8 @@ fn local_motion<L: Law>(
         let force = law.force(state, &project(law, q), &project(law, v));
         accelerations.add_law(law, &force);
     }
+    let held = Directions::held(problem, states);
+    accelerations.react(&held);
     let a = &*accelerations.values;
     jerks.add_structure(&problem.system, v, a);
     for (law, state) in others(problem, states, without) {
@@ -102,6 +122,7 @@ fn local_motion<L: Law>(
         };
         jerks.add_law(law, &rate.force(&project(law, v), &project(law, a)));
     }
+    jerks.react(&held);
     let mut motion = LocalMotion::default();
     for (coordinate, row) in problem.laws[of].rows().iter().enumerate() {
         let (mut derivatives, mut zero) = ([0.0; 4], [0.0; 4]);
@@ -175,6 +196,19 @@ impl<'a> Sums<'a> {
         for (row, force) in law.rows().iter().zip(force) {
             for (mode, factor) in row.iter().enumerate() {
                 self.add_to(mode, factor * force);
+            }
+        }
+    }
+
+    /// Adds the reactions that keep what is held where it is, or their rates.
+    fn react(&mut self, held: &Directions<'_>) {
+        if held.rows.is_empty() {
+            return;
+        }
+        let reactions = held.reactions(self.values);
+        for (row, reaction) in held.rows.iter().zip(reactions) {
+            for (mode, factor) in row.iter().enumerate() {
+                self.add_to(mode, factor * reaction);
             }
         }
     }

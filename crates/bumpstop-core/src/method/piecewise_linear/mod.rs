@@ -54,6 +54,7 @@ use crate::rigid::{Cause, Contacts, Place};
 use advance::{Certificate, Crossing, Path, Walk};
 use curved::{CurvedGuards, Guards};
 use event::Watch;
+use instant::Moment;
 use phase::{Phases, Workspace};
 use spectrum::{Secular, Spectrum, Workbench};
 use std::cell::Cell;
@@ -139,13 +140,9 @@ impl<'a, L: Law> Run<'a, L> {
     #[inline(always)]
     fn advance<I: Instructions>(&mut self, observer: Observer<'_>) -> Result<()> {
         let problem = self.problem;
-        let mut states = instant::initial_states(problem);
         let (mut q, mut v) = (problem.displacement.clone(), problem.velocity.clone());
+        let mut states = self.start(&q, &mut v)?;
         let mut time = 0.0;
-        if !self.contacts.is_empty() {
-            self.contacts.check_start(problem)?;
-            self.meet(Cause::Other, time, &q, &mut v, &mut states)?;
-        }
         self.scratch.walk.start(problem.duration);
         let mut fired: Option<(usize, Guard)> = None;
         let mut at_once = 0;
@@ -211,7 +208,8 @@ impl<'a, L: Law> Run<'a, L> {
             let cause = self.cause(crossing);
             if cause == Cause::Other {
                 let watch = &self.scratch.watch;
-                let (event, guard) = event::event_of(problem, &self.phases, phase, watch, crossing);
+                let (event, guard) =
+                    event::event_of(problem, &self.phases, phase, watch, crossing, [&q, &v]);
                 states[event.law] = event.after;
                 fired = Some((event.law, guard));
                 self.events.push(event);
@@ -221,6 +219,33 @@ impl<'a, L: Law> Run<'a, L> {
                 self.meet(cause, time, &q, &mut v, &mut states)?;
             }
         }
+    }
+
+    /// The laws' states at t = 0. Rigid stops that the structure rests on push others, which may
+    /// in turn let it go: both are gone through until nothing changes.
+    fn start(&mut self, q: &[f64], v: &mut [f64]) -> Result<Vec<State>> {
+        let problem = self.problem;
+        let mut states = vec![State::FIRST; problem.laws.len()];
+        if !self.contacts.is_empty() {
+            self.contacts.check_start(problem)?;
+        }
+        for _ in 0..=problem.laws.len() {
+            let moment = Moment {
+                time: 0.0,
+                displacement: q,
+                velocity: v,
+            };
+            let changes = instant::initial_states(problem, &mut states, moment);
+            if self.contacts.is_empty() {
+                break;
+            }
+            let known = self.events.len();
+            self.meet(Cause::Other, 0.0, q, v, &mut states)?;
+            if !changes && self.events.len() == known {
+                break;
+            }
+        }
+        Ok(states)
     }
 
     /// Whether a rigid stop makes a crossing, and how.
