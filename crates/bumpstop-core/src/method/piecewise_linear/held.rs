@@ -19,7 +19,7 @@ use faer::Mat;
 
 /// A diagonal entry of R's triangular factor below this part of the largest means that a row
 /// depends on those before.
-const DEPENDENT: f64 = 1e-6;
+pub(super) const DEPENDENT: f64 = 1e-6;
 
 /// What is held in a phase.
 #[derive(Debug, Clone, Default)]

@@ -2,8 +2,9 @@
 
 use super::residual::{Class, ClusterResidual, Residual, Sum};
 use crate::error::{Error, Result};
-use crate::law::Law;
+use crate::law::{Law, State};
 use crate::method::piecewise_linear::coupled::Coupled;
+use crate::method::piecewise_linear::held::DEPENDENT;
 use crate::method::piecewise_linear::phase::{Phase, Phases};
 use crate::method::piecewise_linear::record::PhaseRecord;
 use crate::method::piecewise_linear::rows::entry;
@@ -11,6 +12,7 @@ use crate::method::piecewise_linear::spectrum::Spectrum;
 use crate::method::piecewise_linear::view::View;
 use crate::number::{Complex, Plain};
 use crate::problem::Problem;
+use crate::rigid::Directions;
 use faer::{Mat, Side};
 
 /// The equations of all modes in one combination of law states, and what the exponents of the
@@ -27,6 +29,8 @@ pub(super) struct Equations {
     /// Modes with a closed form of their own, which leaves no residual.
     pub solved: Vec<bool>,
     classes: Vec<Class>,
+    /// What reactions can push, where coordinates are held: the rows of their directions.
+    held: Option<Mat<f64>>,
     /// Residual of each motion that resonates with a load, and its growth rate.
     resonances: Vec<(f64, f64)>,
     clusters: Vec<ClusterResidual>,
@@ -49,9 +53,11 @@ impl Equations {
             .map_err(|_| Error::Eigenvalues)?;
         let views = unit_views(spectrum, n);
         let solved: Vec<bool> = views.iter().map(|v| is_solved(spectrum, v)).collect();
+        let held = held_directions(problem, phases.states(phase));
         let residual = Residual {
             coupled: &coupled,
             solved: &solved,
+            held: held.as_ref(),
         };
         Ok(Self {
             classes: residual.classes(problem, spectrum, &views),
@@ -63,7 +69,23 @@ impl Equations {
             coupled,
             views,
             solved,
+            held,
         })
+    }
+
+    /// Whether something is held where it is.
+    pub(super) fn holds(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Takes from a residual what reactions push: they are whatever it takes.
+    pub(super) fn leave_out_reactions(&self, residual: &mut [f64]) {
+        let Some(held) = &self.held else { return };
+        let mut whole: Vec<Complex<f64>> = residual.iter().map(|r| Complex::new(*r, 0.0)).collect();
+        leave_out(held, &mut whole);
+        for (to, from) in residual.iter_mut().zip(&whole) {
+            *to = from.re;
+        }
     }
 
     /// Growth rate that the skew part of the stiffness may cause, the softest motion having this
@@ -129,6 +151,37 @@ impl Equations {
             total += size * length * lasting(*growth, length);
         }
         total
+    }
+}
+
+/// An orthonormal basis of the directions in which reactions push; `None` where nothing is held.
+fn held_directions<L: Law>(problem: &Problem<L>, states: &[State]) -> Option<Mat<f64>> {
+    let held = Directions::held(problem, states);
+    if held.rows.is_empty() {
+        return None;
+    }
+    let modes = problem.system.modes();
+    let rows = Mat::from_fn(modes, held.rows.len(), |i, k| held.rows[k][i]);
+    let factors = rows.col_piv_qr();
+    let triangle = factors.R();
+    let count = modes.min(held.rows.len());
+    let rank = (0..count)
+        .filter(|&k| triangle[(k, k)].abs() > DEPENDENT * triangle[(0, 0)].abs())
+        .count();
+    let all = factors.compute_Q();
+    Some(Mat::from_fn(modes, rank, |i, k| all[(i, k)]))
+}
+
+/// Takes from a vector its part in the span of orthonormal columns.
+pub(super) fn leave_out(columns: &Mat<f64>, vector: &mut [Complex<f64>]) {
+    for k in 0..columns.ncols() {
+        let mut along = Complex::zero();
+        for (i, x) in vector.iter().enumerate() {
+            along += x.scale(columns[(i, k)]);
+        }
+        for (i, x) in vector.iter_mut().enumerate() {
+            *x += along.scale(-columns[(i, k)]);
+        }
     }
 }
 

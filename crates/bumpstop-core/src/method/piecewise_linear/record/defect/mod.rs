@@ -19,7 +19,7 @@ use crate::method::piecewise_linear::signal::Signal;
 use crate::number::{LANES, Plain};
 use crate::problem::Problem;
 use equations::Equations;
-use norm::EnergyNorm;
+use norm::{EnergyNorm, size};
 use residual::{Sum, rounding};
 
 /// Bounds are themselves computed in floating point, from positive terms: this covers it.
@@ -41,17 +41,9 @@ impl<'a, L: Law> Defect<'a, L> {
         }
     }
 
-    /// The largest bound of any phase at any law, in that law's coordinate. Infinite where impulses
-    /// or reactions act, for which there is no bound yet.
+    /// The largest bound of any phase at any law, in that law's coordinate.
     pub(super) fn largest(&mut self) -> Result<f64> {
         let phases = &self.record.phases;
-        let holds = phases
-            .spectra
-            .iter()
-            .any(|spectrum| spectrum.held.is_some());
-        if holds || !self.record.blows.is_empty() {
-            return Ok(f64::INFINITY);
-        }
         let mut equations: Vec<Option<Equations>> = Vec::new();
         equations.resize_with(phases.spectra.len(), || None);
         let mut largest = 0.0f64;
@@ -77,10 +69,19 @@ impl<'a, L: Law> Defect<'a, L> {
         let norm = EnergyNorm::new(equations, length);
         let pushed = equations.exponential_residual(self.record, phase, length)
             + self.polynomial_residual(equations, phase, length);
-        let error = (norm.growth * length).exp() * (self.jump(&norm, number) + pushed);
+        let [position, velocity] = self.jump(number);
+        // What is held stays beside its place, and pushes the rest through the stiffness.
+        let beside = if equations.holds() {
+            size(&position)
+        } else {
+            0.0
+        };
+        let pushed = pushed + equations.coupled.stiffness.norm_l2() * beside * length;
+        let jump = norm.of_state(&position, &velocity);
+        let error = (norm.growth * length).exp() * (jump + pushed);
         let laws = self.problem.laws.iter().flat_map(Law::rows);
-        let reach = laws.fold(0.0f64, |most, row| most.max(norm.reach(row)));
-        BOUNDS_ROUNDING * error * reach
+        let at_row = |row: &Vec<f64>| error * norm.reach(row) + size(row) * beside;
+        BOUNDS_ROUNDING * laws.fold(0.0f64, |most, row| most.max(at_row(row)))
     }
 
     /// Bound of the integral of the polynomial part's residual over a phase.
@@ -101,7 +102,7 @@ impl<'a, L: Law> Defect<'a, L> {
         };
         let mut total = 0.0;
         for power in 0..powers {
-            let mut squares = 0.0;
+            let (mut left, mut noise) = (vec![0.0; n], vec![0.0; n]);
             for mode in (0..n).filter(|&mode| !equations.solved[mode]) {
                 let mut sum = Sum::default();
                 for other in 0..n {
@@ -115,9 +116,11 @@ impl<'a, L: Law> Defect<'a, L> {
                 if power == 0 {
                     equations.add_staying(self.record, phase, mode, &mut sum);
                 }
-                squares += (sum.value.abs() + rounding(2 * n) * sum.size).powi(2);
+                (left[mode], noise[mode]) = (sum.value, rounding(2 * n) * sum.size);
             }
-            total += squares.sqrt() * length.powi(power as i32 + 1) / (power + 1) as f64;
+            equations.leave_out_reactions(&mut left);
+            total +=
+                (size(&left) + size(&noise)) * length.powi(power as i32 + 1) / (power + 1) as f64;
         }
         total
     }
@@ -153,13 +156,14 @@ impl<'a, L: Law> Defect<'a, L> {
         force
     }
 
-    /// How far a phase starts from where the one before ends.
-    fn jump(&mut self, norm: &EnergyNorm<'_>, number: usize) -> f64 {
+    /// How far a phase starts from where the one before ends, impulses between the two included:
+    /// sizes of position and velocity.
+    fn jump(&mut self, number: usize) -> [Vec<f64>; 2] {
         let phases = &self.record.phases;
         let phase = phases.list[number];
         let (problem, work) = (self.problem, &mut self.work);
         let start = self.record.motion_in::<Plain, L>(problem, phase, 0.0, work);
-        let (q, v) = match number.checked_sub(1) {
+        let (q, mut v) = match number.checked_sub(1) {
             Some(before) => {
                 let before = phases.list[before];
                 let length = phase.start - before.start;
@@ -170,12 +174,18 @@ impl<'a, L: Law> Defect<'a, L> {
             }
             None => (problem.displacement.clone(), problem.velocity.clone()),
         };
+        for blow in self.record.blows.iter().filter(|b| b.phase == number) {
+            let row = &problem.laws[blow.law].rows()[0];
+            for (v, factor) in v.iter_mut().zip(row) {
+                *v += factor * blow.impulse;
+            }
+        }
         let between = |a: &[f64], b: &[f64]| -> Vec<f64> {
             let noise = 2.0 * rounding(4 * LANES);
             (a.iter().zip(b))
                 .map(|(a, b)| (a - b).abs() + noise * a.abs().max(b.abs()))
                 .collect()
         };
-        norm.of_state(&between(&start.q, &q), &between(&start.v, &v))
+        [between(&start.q, &q), between(&start.v, &v)]
     }
 }

@@ -31,7 +31,7 @@ impl<'a> EnergyNorm<'a> {
     /// A bound of the norm of a state of which the sizes of position and velocity are known.
     pub(super) fn of_state(&self, position: &[f64], velocity: &[f64]) -> f64 {
         let stiffest = (self.equations.stiffness.iter()).fold(0.0f64, |m, k| m.max(*k));
-        norm(velocity) + (stiffest + self.shift).sqrt() * norm(position)
+        size(velocity) + (stiffest + self.shift).sqrt() * size(position)
     }
 
     /// The largest `row . y` of a state of unit norm.
@@ -47,6 +47,7 @@ impl<'a> EnergyNorm<'a> {
     }
 }
 
-fn norm(vector: &[f64]) -> f64 {
+/// The length of a vector.
+pub(super) fn size(vector: &[f64]) -> f64 {
     vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

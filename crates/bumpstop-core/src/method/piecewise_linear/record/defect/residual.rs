@@ -1,5 +1,6 @@
 //! What motions leave of the equations of motion.
 
+use super::equations::leave_out;
 use crate::law::Law;
 use crate::method::piecewise_linear::cluster::{Cluster, Columns, NOTHING};
 use crate::method::piecewise_linear::coupled::Coupled;
@@ -8,6 +9,7 @@ use crate::method::piecewise_linear::spectrum::Spectrum;
 use crate::method::piecewise_linear::view::View;
 use crate::number::{Complex, LANES};
 use crate::problem::Problem;
+use faer::Mat;
 
 /// Rounding of a sum of n products, each of up to three factors, relative to their sizes.
 pub(super) fn rounding(terms: usize) -> f64 {
@@ -60,6 +62,8 @@ impl Rounded {
 pub(super) struct Residual<'a> {
     pub coupled: &'a Coupled,
     pub solved: &'a [bool],
+    /// Directions in which reactions take up whatever is left.
+    pub held: Option<&'a Mat<f64>>,
 }
 
 impl Residual<'_> {
@@ -87,7 +91,7 @@ impl Residual<'_> {
             if let Some(harmonic) = harmonic {
                 self.take_load(problem, spectrum, harmonic, &mut residual);
             }
-            let Rounded { vector, rounding } = residual;
+            let Rounded { vector, rounding } = self.without_reactions(residual);
             let class = match classes.iter_mut().find(|class| class.exponent == lambda) {
                 Some(class) => class,
                 None => {
@@ -103,6 +107,13 @@ impl Residual<'_> {
             class.roundings.push(rounding);
         }
         classes
+    }
+
+    fn without_reactions(&self, mut residual: Rounded) -> Rounded {
+        if let Some(held) = self.held {
+            leave_out(held, &mut residual.vector);
+        }
+        residual
     }
 
     /// `(lambda^2 + lambda C + K) psi`
@@ -190,10 +201,13 @@ impl Residual<'_> {
 
     fn of_cluster(&self, cluster: &Cluster, seen: &[[Columns; 3]]) -> ClusterResidual {
         let moving = cluster.size - cluster.drives();
-        let (mut squares, mut staying) = (0.0, Vec::with_capacity(seen.len()));
-        for (i, [_, _, curvature]) in seen.iter().enumerate() {
-            let mut stays = vec![Complex::zero(); cluster.drives()];
-            for column in (0..cluster.size).filter(|_| !self.solved[i]) {
+        let mut squares = 0.0;
+        let mut staying = vec![vec![Complex::zero(); cluster.drives()]; seen.len()];
+        for column in 0..cluster.size {
+            let mut vector = vec![Complex::zero(); seen.len()];
+            let mut noises = 0.0;
+            for (i, [_, _, curvature]) in seen.iter().enumerate().filter(|(i, _)| !self.solved[*i])
+            {
                 let mut total = curvature[column];
                 let mut size = total.norm();
                 for (k, [row, slope, _]) in seen.iter().enumerate() {
@@ -203,13 +217,22 @@ impl Residual<'_> {
                     size += stiffness.norm() + damping.norm();
                 }
                 let noise = rounding(2 * seen.len() + 4 * cluster.size) * size;
-                match column.checked_sub(moving) {
-                    // Its rounding is that of the force it stands for.
-                    Some(drive) => stays[drive] = total,
-                    None => squares += (total.norm() + noise).powi(2),
-                }
+                noises += noise * noise;
+                vector[i] = total;
             }
-            staying.push(stays);
+            let column_left = self.without_reactions(Rounded {
+                vector,
+                rounding: f64::sqrt(noises),
+            });
+            match column.checked_sub(moving) {
+                // Its rounding is that of the force it stands for.
+                Some(drive) => {
+                    for (stays, total) in staying.iter_mut().zip(column_left.vector) {
+                        stays[drive] = total;
+                    }
+                }
+                None => squares += column_left.norm().powi(2),
+            }
         }
         ClusterResidual {
             moving: squares.sqrt(),
@@ -222,7 +245,7 @@ impl Residual<'_> {
         let resonances = spectrum.response.iter().flat_map(|r| &r.resonances);
         let each = resonances.map(|resonance| {
             let residual = self.of_exponent(resonance.lambda, &resonance.row);
-            (residual.norm(), resonance.lambda.re)
+            (self.without_reactions(residual).norm(), resonance.lambda.re)
         });
         each.collect()
     }
