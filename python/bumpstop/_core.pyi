@@ -112,7 +112,10 @@ class Stop:
 class RigidStop:
     """A rigid obstacle at distance ``d = gap + row . q``, with a coefficient of restitution."""
 
-    def __init__(self, row: Array, gap: float, restitution: float) -> None: ...
+    def __init__(
+        self, row: Array, gap: float, restitution: float, resolution: float | None = None
+    ) -> None:
+        """Rebounds lower than ``resolution`` of the motion, 1e-12 if left out, end in rest."""
 
 class FrictionStop:
     """A stop that rubs along the coordinate ``tangent . q``, by a spring that can slide."""
@@ -167,6 +170,10 @@ class History:
         """One linear combination of the modal coordinates, (time,), as cheap as it can be."""
     def law_motion(self, law: int, times: Array) -> tuple[Array, Array, Array]:
         """Distance in m, its rate in m/s, and force in N of one law, each (time,)."""
+    def law_forces(self, law: int, times: Array) -> Array:
+        """Force of one law along each of its coordinates in N, (time, coordinate)."""
+    def law_states(self, law: int, times: Array) -> list[str]:
+        """Name of one law's state at each time."""
     def energy(self, times: Array) -> dict[str, Array]:
         """Ledger terms in J.
 

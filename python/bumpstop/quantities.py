@@ -11,6 +11,7 @@ __all__ = [
     "FREQUENCY",
     "IMPACTS",
     "QUANTITIES",
+    "STATE",
     "STOP_ENERGIES",
     "Quantity",
     "dof_units",
@@ -44,10 +45,16 @@ QUANTITIES = {
     "modal_velocity": Quantity("kg^0.5 m/s", "modal velocity", ("mode",)),
     "modal_acceleration": Quantity("kg^0.5 m/s^2", "modal acceleration", ("mode",)),
     "stop_force": Quantity("N", "force of the stop on the structure along its normal", ("stop",)),
+    "friction_force": Quantity(
+        "N", "force of the stop on the structure along its sliding direction", ("stop",)
+    ),
     "gap": Quantity("m", "distance to the stop, negative while it is pressed", ("stop",)),
     "gauge": Quantity("1", "axial strain", ("gauge",)),
 }
 """Quantities that are functions of time."""
+
+STATE = Quantity("1", "state of the law", ("stop",))
+"""What a law does at an instant, in a word: a function of time, but no number."""
 
 FREQUENCY = Quantity("Hz", "natural frequency")
 """A property of each mode."""

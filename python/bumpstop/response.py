@@ -14,7 +14,7 @@ from bumpstop.arguments import FloatArray, one_of
 from bumpstop.errors import InputError
 from bumpstop.labelled import modes_over_time, over_time
 from bumpstop.projection import along
-from bumpstop.quantities import QUANTITIES, dof_units
+from bumpstop.quantities import QUANTITIES, STATE, dof_units
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -170,8 +170,8 @@ class Response:
             ``displacement``, ``velocity``, ``acceleration`` of a node and dof (m or rad, and
             per s and s2); ``modal_displacement``, ``modal_velocity``, ``modal_acceleration``
             of a mode counted from 1, or of all, where a mode is a vector of the basis as its
-            user gave it; ``stop_force`` (N) and ``gap`` (m) of a stop; ``gauge`` (strain) of
-            a gauge.
+            user gave it; ``stop_force``, ``friction_force`` (N) and ``gap`` (m) of a stop, and
+            its ``state`` in words; ``gauge`` (strain) of a gauge.
         target
             What it is the quantity of: ``"B", "dy"``, or ``"guide"``.
         times
@@ -180,7 +180,7 @@ class Response:
         Returns
         -------
         ndarray
-            Values (time,), or (time, U) for all modes.
+            Values (time,), or (time, U) for all modes; texts for states.
 
         Raises
         ------
@@ -195,7 +195,7 @@ class Response:
         >>> bs.simulate(drift).sample("displacement", "P", "dx", times=[0.0, 0.5]).tolist()
         [0.0, 1.0]
         """
-        one_of("quantity", quantity, tuple(QUANTITIES))
+        one_of("quantity", quantity, (*QUANTITIES, "state"))
         _check_target(quantity, target)
         if quantity in MOTIONS:
             node, dof = map(str, target)
@@ -203,6 +203,10 @@ class Response:
             return along(row, self.motion(MOTIONS.index(quantity), times))
         if quantity == "gauge":
             return along(self._gauge_row(str(target[0])), self.motion(0, times))
+        if quantity == "state":
+            return np.array(self._states(str(target[0]), times))
+        if quantity == "friction_force":
+            return self._friction_force(str(target[0]), times)
         if quantity in ("stop_force", "gap"):
             law = self._law_index(str(target[0]))
             distance, _, force = self.history.law_motion(law, self._instants(times))
@@ -277,6 +281,41 @@ class Response:
             If there is no such stop.
         """
         return over_time("stop_force", self.times, self.sample("stop_force", name), stop=name)
+
+    def friction_force(self, name: str) -> xr.DataArray:
+        """Return the force of a stop on the structure along its sliding direction, in N.
+
+        It is zero for stops without friction.
+
+        Raises
+        ------
+        InputError
+            If there is no such stop.
+        """
+        values = self.sample("friction_force", name)
+        return over_time("friction_force", self.times, values, stop=name)
+
+    def state(self, name: str) -> xr.DataArray:
+        """Return what a stop or another law does over time, in the words of the events.
+
+        A stop is ``open``, ``closed`` or ``released``; one with friction does ``stick``, ``slip
+        forward`` or ``slip back`` while it is closed; a rigid one is ``open`` or ``resting``.
+
+        Raises
+        ------
+        InputError
+            If there is no such law.
+        """
+        import xarray as xr
+
+        from bumpstop.labelled import time_coordinate
+
+        return xr.DataArray(
+            self.sample("state", name),
+            coords={"time": time_coordinate(self.times)},
+            name="state",
+            attrs={"long_name": STATE.long_name, "stop": name},
+        )
 
     def gap(self, name: str) -> xr.DataArray:
         """Return the distance to a stop over time, in m; it is negative while pressed.
@@ -368,6 +407,13 @@ class Response:
         names = [law.name for law in self.problem.laws]
         return names.index(one_of("stop", stop, names))
 
+    def _states(self, law: str, times: ArrayLike | None) -> list[str]:
+        return self.history.law_states(self._law_index(law), self._instants(times))
+
+    def _friction_force(self, law: str, times: ArrayLike | None) -> FloatArray:
+        forces = self.history.law_forces(self._law_index(law), self._instants(times))
+        return forces[:, 1].copy() if forces.shape[1] > 1 else np.zeros(len(forces))
+
     def _gauge_row(self, gauge: str) -> FloatArray:
         gauges = {known.name: known for known in self.problem.gauges}
         return self.problem.basis.gauge_row(gauges[one_of("gauge", gauge, tuple(gauges))])
@@ -411,7 +457,7 @@ def _checked_times(times: ArrayLike, duration: float) -> FloatArray:
 
 
 def _check_target(quantity: str, target: tuple[str | SupportsIndex, ...]) -> None:
-    wanted = QUANTITIES[quantity].target
+    wanted = STATE.target if quantity == "state" else QUANTITIES[quantity].target
     if len(target) == len(wanted) or (wanted == ("mode",) and not target):
         return
     what = f"{quantity} is that of a {' and a '.join(wanted)}"

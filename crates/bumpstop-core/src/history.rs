@@ -4,7 +4,7 @@ use crate::dynamics::Moment;
 use crate::energy::{self, Ledger};
 use crate::error::{Error, Result, check_length};
 use crate::impacts::{Impact, Sample};
-use crate::law::{Law, State, project};
+use crate::law::{Law, Local, State, project};
 use crate::method::fixed_step::StepRecord;
 use crate::method::piecewise_linear::PhaseRecord;
 use crate::problem::Problem;
@@ -200,17 +200,56 @@ impl<L: Law> History<L> {
             let (distance, speed) = which.distance(&position, &rate);
             columns[0].push(distance);
             columns[1].push(speed);
-            let moment = Moment {
-                time,
-                displacement: q,
-                velocity: v,
-                states,
-            };
-            let force = (moment.reaction(&self.problem, law))
-                .unwrap_or_else(|| which.force(states[law], &position, &rate)[0]);
-            columns[2].push(force);
+            columns[2].push(self.force_at(law, time, q, v, states)[0]);
         });
         Ok(columns)
+    }
+
+    /// Force of a law on the structure along each of its coordinates, one triple a time, in N; that
+    /// of a stop that is rested on is its reaction.
+    ///
+    /// # Errors
+    /// When a time lies outside `[0, duration]`.
+    pub fn law_forces(&self, law: usize, times: &[f64]) -> Result<Vec<Local<f64>>> {
+        self.check_times(times)?;
+        let mut forces = Vec::with_capacity(times.len());
+        self.visit(times, |time, q, v, states| {
+            forces.push(self.force_at(law, time, q, v, states));
+        });
+        Ok(forces)
+    }
+
+    /// State of a law at each time.
+    ///
+    /// # Errors
+    /// When a time lies outside `[0, duration]`.
+    pub fn law_states(&self, law: usize, times: &[f64]) -> Result<Vec<State>> {
+        self.check_times(times)?;
+        let mut found = Vec::with_capacity(times.len());
+        self.visit(times, |_, _, _, states| found.push(states[law]));
+        Ok(found)
+    }
+
+    fn force_at(
+        &self,
+        law: usize,
+        time: f64,
+        q: &[f64],
+        v: &[f64],
+        states: &[State],
+    ) -> Local<f64> {
+        let which = &self.problem.laws[law];
+        let moment = Moment {
+            time,
+            displacement: q,
+            velocity: v,
+            states,
+        };
+        let mut force = which.force(states[law], &project(which, q), &project(which, v));
+        if let Some(reaction) = moment.reaction(&self.problem, law) {
+            force[0] = reaction;
+        }
+        force
     }
 
     /// The energy ledger at each time.

@@ -154,6 +154,41 @@ impl History {
         ))
     }
 
+    fn law_forces<'py>(
+        &self,
+        py: Python<'py>,
+        law: usize,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.check_law(law)?;
+        let times = values(&times);
+        let forces = self
+            .read(py, |h| h.law_forces(law, &times))
+            .map_err(core_error)?;
+        let count = self.inner.problem().laws[law].rows().len();
+        let of = |(time, coordinate): (usize, usize)| forces[time][coordinate];
+        Ok(Array2::from_shape_fn((times.len(), count), of).into_pyarray(py))
+    }
+
+    fn law_states(
+        &self,
+        py: Python<'_>,
+        law: usize,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<Vec<String>> {
+        self.check_law(law)?;
+        let times = values(&times);
+        let states = self
+            .read(py, |h| h.law_states(law, &times))
+            .map_err(core_error)?;
+        let name = |state: &_| {
+            self.inner.problem().laws[law]
+                .state_name(*state)
+                .into_owned()
+        };
+        Ok(states.iter().map(name).collect())
+    }
+
     fn energy<'py>(
         &self,
         py: Python<'py>,

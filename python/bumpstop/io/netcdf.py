@@ -18,6 +18,7 @@ from bumpstop.quantities import (
     ENERGIES,
     IMPACTS,
     QUANTITIES,
+    STATE,
     STOP_ENERGIES,
     dof_units,
     modal_attributes,
@@ -49,12 +50,12 @@ def write_netcdf(
 ) -> None:
     """Write a response, tabulated at its times, to a NetCDF-4 file.
 
-    Over ``time`` the file holds the modal motion, forces and gaps of the stops, strains of
-    the gauges, displacements of all mesh nodes along the axes that are free (where the basis
-    knows its structure), motions of the problem's outputs and of the nodes at the stops, and
-    the energy ledger; and beside them tables of impacts and of events. Names, units and
-    attributes follow the CF conventions, version 1.11; attributes of the file say what made
-    it and how.
+    Over ``time`` the file holds the modal motion, forces and gaps of the stops, with friction
+    also its forces and the states, strains of the gauges, displacements of all mesh nodes along
+    the axes that are free (where the basis knows its structure), motions of the problem's outputs
+    and of the nodes at the stops, and the energy ledger; and beside them tables of impacts and of
+    events. Names, units and attributes follow the CF conventions, version 1.11; attributes of the
+    file say what made it and how.
 
     Parameters
     ----------
@@ -118,6 +119,23 @@ def _stops(response: Response) -> Iterator[Variable]:
     distances, _, forces = (np.stack(columns, axis=1) for columns in zip(*found, strict=True))
     for name, values in (("stop_force", forces), ("gap", distances)):
         yield Variable(name, ("time", "stop"), values, QUANTITIES[name].attributes)
+    if any(getattr(law, "friction", None) is not None for law in response.problem.laws):
+        yield from _friction(response, stops)
+
+
+def _friction(response: Response, stops: list[str]) -> Iterator[Variable]:
+    """Give the forces along the obstacles and, as flags of the CF conventions, the states."""
+    over = ("time", "stop")
+    forces = np.stack([response.sample("friction_force", stop) for stop in stops], axis=1)
+    yield Variable("friction_force", over, forces, QUANTITIES["friction_force"].attributes)
+    states = np.stack([response.sample("state", stop) for stop in stops], axis=1)
+    names, numbers = np.unique(states, return_inverse=True)
+    flags: dict[str, Any] = {
+        "long_name": STATE.long_name,
+        "flag_values": np.arange(names.size, dtype=np.int32),
+        "flag_meanings": " ".join(re.sub(r"\W+", "_", name) for name in names.tolist()),
+    }
+    yield Variable("state", over, numbers.reshape(states.shape).astype(np.int32), flags)
 
 
 def _gauges(response: Response, displacement: FloatArray) -> Iterator[Variable]:

@@ -45,7 +45,7 @@ class Variable(NamedTuple):
     dimensions: tuple[str, ...]
     values: NDArray[Any]
     """Numbers, or strings as objects."""
-    attributes: Mapping[str, str]
+    attributes: Mapping[str, Any]
 
     @property
     def is_coordinate(self) -> bool:
@@ -140,7 +140,8 @@ def _set_attributes(thing: h5py.h5g.GroupID | h5d.DatasetID, attributes: Mapping
         else:
             content = np.array(value)
             stored, in_memory = _types(content.dtype)
-        h5a.create(thing, name.encode(), stored, SCALAR).write(content, in_memory)
+        space = h5s.create_simple(content.shape) if content.ndim else SCALAR
+        h5a.create(thing, name.encode(), stored, space).write(content, in_memory)
 
 
 @cache

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
     from bumpstop.response import Response
 
-__all__ = ["MOST_POINTS", "contact_spans", "instants", "thin"]
+__all__ = ["MOST_POINTS", "contact_spans", "instants", "state_spans", "thin"]
 
 MOST_POINTS = 2000
 """Points of one curve: more than a wide screen has columns."""
@@ -31,6 +31,17 @@ def contact_spans(response: Response, stop: str | None = None) -> list[tuple[flo
     ends = np.array(table["end"], dtype=float)[wanted]
     ends[np.isnan(ends)] = response.problem.duration
     return list(zip(starts.tolist(), ends.tolist(), strict=True))
+
+
+def state_spans(response: Response, law: str, state: str) -> list[tuple[float, float]]:
+    """Return when a law was in a state, in s, by the events."""
+    table = response.event_table()
+    own = [n for n, name in enumerate(table["law"]) if name == law]
+    times = [0.0, *(float(table["time"][n]) for n in own), response.problem.duration]
+    first = table["before"][own[0]] if own else response.sample("state", law, times=[0.0])[0]
+    states = [first, *(table["after"][n] for n in own)]
+    spans = zip(states, times[:-1], times[1:], strict=True)
+    return [(start, end) for name, start, end in spans if name == state and end > start]
 
 
 def instants(response: Response, extra: Iterable[float] = ()) -> FloatArray:

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from bumpstop.report.balance import ledger_instants, residual_told
-from bumpstop.report.curves import MOST_POINTS, contact_spans, instants, thin
+from bumpstop.report.curves import MOST_POINTS, contact_spans, instants, state_spans, thin
 from bumpstop.report.palette import LIGHT
 from bumpstop.report.plotting import (
     MOST_BANDS,
     Axis,
+    bands,
     boundary,
     contact_bands,
     layout_of,
@@ -40,6 +41,7 @@ __all__ = [
     "Figure",
     "as_plotly",
     "energy_ledger",
+    "friction_force",
     "gap",
     "gauge_strain",
     "node_motion",
@@ -105,6 +107,14 @@ def stop_force(response: Response, stop: str, references: Sequence[Reference] = 
     figure["data"][0]["line"]["color"] = LIGHT["contact"]
     figure["data"][0] |= {"fill": "tozeroy", "fillcolor": "rgba(213, 94, 0, 0.12)"}
     figure["layout"]["yaxis"]["rangemode"] = "nonnegative"
+    return figure
+
+
+def friction_force(response: Response, stop: str, references: Sequence[Reference] = ()) -> Figure:
+    """Draw the force of a stop along its obstacle over time, shaded while it sticks."""
+    figure = _over_time(response, ("friction_force", stop), "Force", references)
+    clock = scale_for("s", instants(response))
+    figure["layout"]["shapes"] = bands(state_spans(response, stop, "stick"), clock)
     return figure
 
 

@@ -11,6 +11,8 @@ from bumpstop.report.curves import contact_spans
 from bumpstop.report.palette import LIGHT
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from bumpstop.arguments import FloatArray
     from bumpstop.report.scales import Scale
     from bumpstop.response import Response
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "MOST_BANDS",
     "Axis",
+    "bands",
     "boundary",
     "contact_bands",
     "layout_of",
@@ -108,7 +111,11 @@ def line_trace(x: FloatArray, y: FloatArray, name: str, role: str, axis: Axis) -
 
 def contact_bands(response: Response, clock: Scale) -> list[dict[str, Any]]:
     """Return the shading of the stretches of time in which a stop is closed."""
-    spans = contact_spans(response)
+    return bands(contact_spans(response), clock)
+
+
+def bands(spans: Sequence[tuple[float, float]], clock: Scale) -> list[dict[str, Any]]:
+    """Return the shading of stretches of time, unless there are too many."""
     if len(spans) > MOST_BANDS:
         return []
     return [

@@ -88,6 +88,8 @@ class Variant:
                 yield figures.node_motion(response, quantity, str(node), str(dof), references)
         for law in problem.laws[:MOST_STOPS]:
             yield figures.stop_force(response, law.name, references)
+            if getattr(law, "friction", None) is not None:
+                yield figures.friction_force(response, law.name, references)
             yield figures.gap(response, law.name, references)
         for gauge in problem.gauges[:MOST_STOPS]:
             yield figures.gauge_strain(response, gauge.name, references)

@@ -32,6 +32,8 @@ def title_of(target: tuple[str | int, ...]) -> str:
             return f"{quantity.capitalize()} {of[1]} of {of[0]}"
         case "stop_force":
             return f"Force of stop {of[0]}"
+        case "friction_force":
+            return f"Friction force of stop {of[0]}"
         case "gap":
             return f"Gap at stop {of[0]}"
         case "gauge":
