@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 __all__ = ["RigidStop"]
 
+FINEST = 1e-13
+"""Finest resolution: heights below it are rounding."""
+
 ROUNDING = 1e-14
 """Part of the terms that a distance is summed of below which it is zero."""
 
@@ -48,6 +51,9 @@ class RigidStop(Contact):
         Part of the speed that is given back, from 0 to 1.
     obstacle
         Shape of the obstacle: ``"plane"``.
+    resolution
+        Rebounds lower than this part of the motion, as the largest sum of the sizes of the terms
+        of the distance, are not followed: the structure comes to rest. From 1e-13 to 1.
 
     Raises
     ------
@@ -74,6 +80,7 @@ class RigidStop(Contact):
 
     _: KW_ONLY
     restitution: float
+    resolution: float = 1e-12
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -81,6 +88,12 @@ class RigidStop(Contact):
         if not 0.0 <= restitution <= 1.0:
             raise InputError("must be from 0 to 1", key="restitution", value=self.restitution)
         object.__setattr__(self, "restitution", restitution)
+        resolution = finite("resolution", self.resolution)
+        if not FINEST <= resolution <= 1.0:
+            what = f"must be from {FINEST:g} to 1"
+            hint = "finer ones are lost in rounding"
+            raise InputError(what, key="resolution", value=self.resolution, hint=hint)
+        object.__setattr__(self, "resolution", resolution)
 
     def check_start(self, basis: ModalBasis, displacement: FloatArray) -> None:
         """Refuse a start, at modal displacements (N,), inside the stop.
@@ -100,4 +113,4 @@ class RigidStop(Contact):
         """Return the stop as the core sees it; see `row`."""
         from bumpstop import _core
 
-        return _core.RigidStop(self.row(basis), self.gap, self.restitution)
+        return _core.RigidStop(self.row(basis), self.gap, self.restitution, self.resolution)

@@ -56,6 +56,9 @@ def _stop(name: str, table: StopTable) -> Stop | RigidStop:
     if table.stiffness is None:
         hint = "a rigid stop has a restitution instead"
         raise InputError("is missing", key="stiffness", hint=hint)
+    if "resolution" in given:
+        what, value = "belongs to rigid stops", given["resolution"]
+        raise InputError(what, key="resolution", value=value, hint="leave it out")
     return Stop(name, **given)
 
 

@@ -42,6 +42,11 @@ class StopTable(Table):
         description="Part of the speed that a rigid stop gives back, from 0 to 1; such a stop "
         "has neither stiffness nor damping nor friction",
     )
+    resolution: Ratio | None = Field(
+        default=None,
+        description="Rebounds from a rigid stop lower than this part of the motion end in rest; "
+        "from 1e-13 to 1, 1e-12 where left out",
+    )
     damping: DampingConstant = Field(default=0.0, description="Contact damping, in N s/m")
     friction: FrictionCoefficients | None = Field(
         default=None,
