@@ -18,8 +18,11 @@ from time import monotonic
 from .several.coupled import random_coupled
 from .several.forced import random_forced
 from .several.grazing import random_grazing
+from .several.multilinear import random_multilinear
 from .several.precise import PreciseSeveral
 from .several.random_problems import random_several
+from .several.rigid import random_rigid
+from .several.rubbing import random_rubbing
 from .several.verdict import LARGEST_GROWTH, Verdict, compare
 
 SECONDS_BETWEEN_LINES = 20.0
@@ -29,7 +32,10 @@ FAMILIES = {
     "constant": random_several,
     "coupled": random_coupled,
     "forced": random_forced,
+    "friction": random_rubbing,
     "grazing": random_grazing,
+    "rigid": random_rigid,
+    "springs": random_multilinear,
 }
 
 

@@ -1,33 +1,33 @@
-"""Guards of stops in their states, and the first zero of one that is a polynomial over a step."""
+"""Guards of laws in their states, and the first zero of one that is a polynomial over a step."""
 
 from dataclasses import dataclass
 
-from ..problem import CLOSED, OPEN, RELEASED, Array
-from .flow import distance_row, rate_row
-from .loads import Exosystem
-from .problem import Stop
+from ..problem import Array
+from .flow import Flow, Layout
 
 ITERATIONS = 200
+LEAVES = "leaves"
+"""What a reaction's guard tries."""
 
 
 @dataclass(frozen=True)
 class Guard:
-    """A function that is positive as long as a stop stays in its state."""
+    """A function that is positive as long as a law stays in its state."""
 
-    stop: int
-    after: str
+    law: int
+    tried: str
     row: Array
 
 
-def guards_of(number: int, stop: Stop, state: str, exosystem: Exosystem) -> list[Guard]:
-    """Return the guards of one stop, as the law is documented."""
-    distance = distance_row(stop, exosystem)
-    push = -distance - stop.damping / stop.stiffness * rate_row(stop, exosystem)
-    if state == OPEN:
-        return [Guard(number, CLOSED, distance)]
-    if state == CLOSED:
-        return [Guard(number, RELEASED if stop.damping > 0 else OPEN, push)]
-    return [Guard(number, OPEN, -distance), Guard(number, CLOSED, -push)]
+def guards_of(layout: Layout, states: tuple[str, ...], flow: Flow) -> list[Guard]:
+    """Return the guards of all laws, as they are documented."""
+    guards = []
+    for number, (law, state) in enumerate(zip(layout.laws, states, strict=True)):
+        for tried, form in law.guards(state, 1.0):
+            guards.append(Guard(number, tried, layout.row(number, form, flow.matrix)))
+        if number in flow.reactions:
+            guards.append(Guard(number, LEAVES, flow.reactions[number]))
+    return guards
 
 
 def horner(coefficients: list[float], s: float) -> tuple[float, float]:
@@ -84,10 +84,12 @@ def fall(coefficients: list[float]) -> Found:
 
 
 def departure(coefficients: list[float], zero: float) -> Found:
-    """Look over s in [0, 1] at one that is zero at s = 0: divide that root out.
+    """Look over s in [0, 1] at one that starts at zero, or below it where something jumped.
 
-    Coefficients below ``zero`` count as none.
+    Coefficients below ``zero`` count as none; a root at s = 0 is divided out.
     """
+    if coefficients[0] < -zero:
+        return Found(0.0)
     rest = coefficients[1:]
     while rest and abs(rest[0]) <= zero:
         rest = rest[1:]

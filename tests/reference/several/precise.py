@@ -1,26 +1,29 @@
-"""Fifty-digit judge of several stops under forces in time: Taylor series in decimal arithmetic.
+"""Fifty-digit judge of several stops and soft laws: Taylor series in decimal arithmetic.
 
 The series of the motion follows from the equation of motion term by term, so that it needs
 neither eigenvalues nor matrix exponentials; that of each load is written down at the step's start.
 """
 
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
-from itertools import count, islice, pairwise
+from itertools import count, islice
 from math import comb
 
 import numpy as np
 from mpmath import mp
 
 from ..precise import DIGITS, RADIUS, Step, Vector, decimals, dot, first_root
-from ..problem import CLOSED, OPEN, RELEASED, Array
+from ..problem import Array
+from .impacts import Tail
+from .laws.form import Form
+from .laws.law import Law
 from .loads import Harmonic, Load, Polynomial, Table
-from .problem import SeveralStops, Stop
+from .problem import SeveralStops
 from .scan import Event, Minimum, ScanSolution
 
-ZERO = Decimal(0)
+ZERO, ONE = Decimal(0), Decimal(1)
 TOUCHING = Decimal(10) ** (10 - DIGITS)
 MOST_TERMS = 400
 MOST_AT_ONCE = 64
@@ -56,28 +59,44 @@ def load_series(load: Load, time: Decimal, h: Decimal) -> Iterator[Decimal]:
         yield ZERO
 
 
-@dataclass(frozen=True)
-class _Stop:
-    """A stop in decimals."""
+Terms = Sequence[Vector]
+"""Consecutive Taylor coefficients of the modal displacements."""
 
-    row: Vector
-    gap: Decimal
-    stiffness: Decimal
-    damping: Decimal
+
+@dataclass(frozen=True)
+class _Law:
+    """A law with the rows of its local coordinates in decimals."""
+
+    law: Law
+    coordinates: list[tuple[Vector, Decimal]]
 
     @classmethod
-    def of(cls, stop: Stop) -> "_Stop":
-        numbers = (Decimal(stop.gap), Decimal(stop.stiffness), Decimal(stop.damping))
-        return cls(decimals(stop.row), *numbers)
+    def of(cls, law: Law) -> "_Law":
+        return cls(law, [(decimals(row), Decimal(offset)) for row, offset in law.coordinates])
 
-    def distance(self, term: Vector, n: int) -> Decimal:
-        """Return one coefficient of the distance."""
-        return dot(self.row, term) + (self.gap if n == 0 else ZERO)
+    def coefficient(
+        self, form: Form[Decimal], terms: Terms, n: int, h: Decimal, memory: Decimal
+    ) -> Decimal:
+        """Return one coefficient of a function, from those of the motion from the n-th on."""
+        total = form.constant + form.memory * memory if n == 0 else ZERO
+        for (number, order), factor in form.factors.items():
+            row, offset = self.coordinates[number]
+            value = dot(row, terms[order])
+            for k in range(order):
+                value *= (n + k + 1) / h
+            if n == 0 and order == 0:
+                value += offset
+            total += factor * value
+        return total
 
-    def push(self, term: Vector, following: Vector, n: int, h: Decimal) -> Decimal:
-        """Return one coefficient of the force that it has if it is closed, over the stiffness."""
-        rate = (n + 1) / h * dot(self.row, following)
-        return -self.distance(term, n) - self.damping / self.stiffness * rate
+    def size(self, form: Form[Decimal], reach: Vector, h: Decimal, memory: Decimal) -> Decimal:
+        """Return the sizes that a function is the sum of over a step."""
+        total = abs(form.constant) + abs(form.memory * memory)
+        for (number, order), factor in form.factors.items():
+            row, offset = self.coordinates[number]
+            value = dot([abs(a) for a in row], reach) / h**order
+            total += abs(factor) * (value + (abs(offset) if order == 0 else ZERO))
+        return total
 
 
 class PreciseSeveral:
@@ -90,6 +109,7 @@ class PreciseSeveral:
         self.end, self.most_events = scan.end, most_events
         self.events: list[Event] = []
         self.minima: list[Minimum] = []
+        self.tails: list[Tail] = []
         self.steps: list[Step] = []
         with localcontext(prec=DIGITS):
             self._read(problem)
@@ -99,7 +119,8 @@ class PreciseSeveral:
         self.loads = [(decimals(load.shape), load) for load in problem.loads]
         self.omega2, self.damping = decimals(problem.omega2), decimals(problem.damping)
         self.force = decimals(problem.force)
-        self.stops = [_Stop.of(stop) for stop in problem.stops]
+        self.laws = [_Law.of(law) for law in problem.laws]
+        self.memories = [ZERO] * len(self.laws)
         self.coupling: list[Vector] | None = None
         if problem.coupling is not None:
             self.coupling = [decimals(row) for row in problem.coupling]
@@ -109,11 +130,15 @@ class PreciseSeveral:
 
     # -- one step --------------------------------------------------------------------------
 
-    def _length(self, closed: list[_Stop]) -> Decimal:
+    def _length(self, states: tuple[str, ...]) -> Decimal:
         stiffness, damping = max(self.omega2), max(self.damping)
-        for stop in closed:
-            norm = dot(stop.row, stop.row)
-            stiffness, damping = stiffness + stop.stiffness * norm, damping + stop.damping * norm
+        for law, state in zip(self.laws, states, strict=True):
+            for (row, _), form in zip(law.coordinates, law.law.forces(state, ONE), strict=False):
+                for (number, order), factor in form.factors.items():
+                    felt = law.coordinates[number][0]
+                    pull = abs(factor) * (dot(row, row) * dot(felt, felt)).sqrt()
+                    stiffness += pull if order == 0 else ZERO
+                    damping += pull if order == 1 else ZERO
         for row in self.coupling or []:
             damping += max(abs(a) for a in row)
         for _, load in self.loads:
@@ -124,10 +149,15 @@ class PreciseSeveral:
         return Decimal(RADIUS) / rate
 
     def _terms(
-        self, closed: list[_Stop], time: Decimal, q: Vector, v: Vector, h: Decimal
+        self, states: tuple[str, ...], time: Decimal, q: Vector, v: Vector, h: Decimal
     ) -> Iterator[Vector]:
         """Yield the coefficients of the modal displacements."""
         now, following, force = q, [a * h for a in v], self.force
+        acting = [
+            (law, row, form, memory)
+            for law, state, memory in zip(self.laws, states, self.memories, strict=True)
+            for (row, _), form in zip(law.coordinates, law.law.forces(state, ONE), strict=False)
+        ]
         loads = [(shape, load_series(load, time, h)) for shape, load in self.loads]
         for n in count():
             yield now
@@ -135,9 +165,9 @@ class PreciseSeveral:
             for shape, series in loads:
                 value = next(series)
                 push = [p + s * value for p, s in zip(push, shape, strict=True)]
-            for stop in closed:
-                value = stop.stiffness * stop.push(now, following, n, h)
-                push = [p + s * value for p, s in zip(push, stop.row, strict=True)]
+            for law, row, form, memory in acting:
+                value = law.coefficient(form, (now, following), n, h, memory)
+                push = [p + s * value for p, s in zip(push, row, strict=True)]
             rate = (n + 1) / h
             drag = [c * rate * b for c, b in zip(self.damping, following, strict=True)]
             if self.coupling is not None:
@@ -154,12 +184,12 @@ class PreciseSeveral:
             force = [ZERO] * len(q)
 
     def _series(
-        self, closed: list[_Stop], time: Decimal, q: Vector, v: Vector, h: Decimal
+        self, states: tuple[str, ...], time: Decimal, q: Vector, v: Vector, h: Decimal
     ) -> list[Vector]:
         """Return the terms down to the precision, three small ones in a row ending them."""
         series: list[Vector] = []
         size, small = ZERO, 0
-        for term in islice(self._terms(closed, time, q, v, h), MOST_TERMS):
+        for term in islice(self._terms(states, time, q, v, h), MOST_TERMS):
             series.append(term)
             top = max(abs(a) for a in term)
             size = max(size, top)
@@ -171,32 +201,63 @@ class PreciseSeveral:
     def _guards(
         self, states: tuple[str, ...], series: list[Vector], h: Decimal
     ) -> Iterator[tuple[int, str, Vector, Decimal]]:
-        """Yield stop, state that follows, polynomial and the sizes it is the sum of."""
+        """Yield law, state that is tried, polynomial and the sizes it is the sum of."""
         reach = [max(abs(a) for a in mode) for mode in zip(*series, strict=True)]
-        for number, (stop, state) in enumerate(zip(self.stops, states, strict=True)):
-            size = dot([abs(a) for a in stop.row], reach) + abs(stop.gap)
-            if size == 0:
-                continue
-            distance = [stop.distance(term, n) for n, term in enumerate(series)]
-            if state == OPEN:
-                yield number, CLOSED, distance, size
-                continue
-            push = [stop.push(*pair, n, h) for n, pair in enumerate(pairwise(series))]
-            if state == CLOSED:
-                yield number, RELEASED if stop.damping > 0 else OPEN, push, size
-            else:
-                yield number, OPEN, [-a for a in distance], size
-                yield number, CLOSED, [-a for a in push], size
+        both = zip(self.laws, states, self.memories, strict=True)
+        for number, (law, state, memory) in enumerate(both):
+            for tried, form in law.law.guards(state, ONE):
+                size = law.size(form, reach, h, memory)
+                if size == 0:
+                    continue
+                highest = max(order for _, order in form.factors)
+                count = len(series) - highest
+                pieces = (series[n : n + highest + 1] for n in range(count))
+                guard = [
+                    law.coefficient(form, terms, n, h, memory) for n, terms in enumerate(pieces)
+                ]
+                yield number, tried, guard, size
 
     # -- the run ---------------------------------------------------------------------------
 
     def _first_states(self, q: Vector, v: Vector) -> tuple[str, ...]:
         states = []
-        for stop in self.stops:
-            one = Decimal(1)
-            push, inside = stop.push(q, v, 0, one), stop.distance(q, 0) < 0
-            states.append(OPEN if not inside else CLOSED if push > 0 else RELEASED)
+        for number, law in enumerate(self.laws):
+
+            def value(form: Form[Decimal], law: _Law = law) -> Decimal:
+                return law.coefficient(form, (q, v), 0, ONE, ZERO)
+
+            state = law.law.start(value, ONE)
+            remembered = law.law.memory("", state, state, ONE)
+            if remembered is not None:
+                self.memories[number] = value(remembered)
+            states.append(state)
         return tuple(states)
+
+    def _switch(
+        self, states: tuple[str, ...], number: int, tried: str, time: Decimal, q: Vector, v: Vector
+    ) -> tuple[str, ...]:
+        """Let a law go over to its next state."""
+        law, before = self.laws[number], states[number]
+        h = self._length(states)
+        scale = [max(abs(a), abs(h * b)) for a, b in zip(q, v, strict=True)]
+
+        def going_on(state: str) -> tuple[str, ...]:
+            return (*states[:number], state, *states[number + 1 :])
+
+        def sign(state: str, form: Form[Decimal]) -> int:
+            terms = list(islice(self._terms(going_on(state), time, q, v, h), 3))
+            value = law.coefficient(form, terms, 0, h, self.memories[number])
+            zero = TOUCHING * law.size(form, scale, h, self.memories[number])
+            return 0 if abs(value) <= zero else 1 if value > 0 else -1
+
+        after = law.law.follow(before, tried, sign, ONE)
+        remembered = law.law.memory(before, tried, after, ONE)
+        if remembered is not None:
+            memory = self.memories[number]
+            self.memories[number] = law.coefficient(remembered, (q, v), 0, ONE, memory)
+        if time > 0:
+            self.events.append(Event(float(time), number, before, after))
+        return going_on(after)
 
     def _solve(self) -> None:
         q, v = self.start
@@ -204,9 +265,8 @@ class PreciseSeveral:
         begins = True
         end = Decimal(self.end)
         while time < end and len(self.events) < self.most_events:
-            closed = [s for s, state in zip(self.stops, states, strict=True) if state == CLOSED]
-            h = self._length(closed)
-            series = self._series(closed, time, q, v, h)
+            h = self._length(states)
+            series = self._series(states, time, q, v, h)
             knot = next(t for t in self.knots if t > time)
             room = min(Decimal(1), (knot - time) / h)
             part, event = self._first_event(states, series, h, time, room, begins)
@@ -215,10 +275,7 @@ class PreciseSeveral:
             q, v = self.steps[-1].at(following)
             begins = event is not None
             if event is not None:
-                number, after = event
-                if following > 0:
-                    self.events.append(Event(float(following), number, states[number], after))
-                states = (*states[:number], after, *states[number + 1 :])
+                states = self._switch(states, *event, following, q, v)
                 at_once = at_once + 1 if following == time else 0
                 if at_once > MOST_AT_ONCE:
                     raise ArithmeticError(f"endless switching at {time}")
@@ -236,18 +293,18 @@ class PreciseSeveral:
     ) -> tuple[Decimal, tuple[int, str] | None]:
         """Return the part of the step that is gone, and which stop switches then, to what."""
         end, event = room, None
-        for number, after, guard, size in self._guards(states, series, h):
+        for number, tried, guard, size in self._guards(states, series, h):
             inside = departing(guard, size) if begins else guard
             if not inside:
                 continue
             if inside[0] <= 0:
-                return ZERO, (number, after)
+                return ZERO, (number, tried)
             # Over the whole step: an end that is itself a root would be no bracket.
             root, least = first_root(inside, room)
             if least is not None:
                 self.minima.append(Minimum(float(time), number, float(abs(least) / size)))
             if root is not None and root < end:
-                end, event = root, (number, after)
+                end, event = root, (number, tried)
         return end, event
 
     # -- what came out ---------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""Several stops on a modal system under forces in time, as plain arrays."""
+"""Several stops and other laws on a modal system under forces in time, as plain arrays."""
 
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Self
@@ -6,20 +6,14 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from ..problem import Array
+from .laws.law import Law
+from .laws.stop import Stop
 from .loads import Exosystem, Harmonic, Load, Polynomial, Table
 
 if TYPE_CHECKING:
     from bumpstop._core import History
 
-
-@dataclass(frozen=True)
-class Stop:
-    """``F = max(0, -k d - c d')`` below ``d = gap + row . q``."""
-
-    row: Array
-    gap: float
-    stiffness: float
-    damping: float = 0.0
+__all__ = ["SeveralStops", "Stop"]
 
 
 @dataclass(frozen=True)
@@ -35,6 +29,7 @@ class SeveralStops:
     force: Array = field(default_factory=lambda: np.zeros(0))
     loads: tuple[Load, ...] = ()
     coupling: Array | None = None
+    others: tuple[Law, ...] = ()  # laws that are numbered after the stops
 
     def __post_init__(self) -> None:
         """Let no constant force be one of zeros."""
@@ -44,6 +39,11 @@ class SeveralStops:
     def but(self, **changes: Any) -> Self:
         """Return the same problem with some fields changed."""
         return replace(self, **changes)
+
+    @property
+    def laws(self) -> tuple[Law, ...]:
+        """The stops and the other laws, as they are numbered in events."""
+        return (*self.stops, *self.others)
 
     def exosystem(self) -> Exosystem:
         """Return the system that makes all forces in time."""
@@ -70,7 +70,7 @@ class SeveralStops:
         ]
         return _core.simulate(
             _core.System(self.omega2, self.damping, self.coupling),
-            [_core.Stop(s.row, s.gap, s.stiffness, s.damping) for s in self.stops],
+            [law.core() for law in self.laws],
             _core.Forcing(self.force, polynomials, harmonics, tables),
             self.displacement,
             self.velocity,

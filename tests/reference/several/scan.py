@@ -1,11 +1,7 @@
 """The judge in double precision: scan every guard, refine every minimum, switch, and go on.
 
 It shares nothing with the core: no eigenvalues but the fastest one's size, no modes, no bounds.
-
-What rounding may do to a run is known from the matrices V(t, s) that carry a perturbation from
-an instant s to a later one t, through every switch (saltation). Rounding enters in every phase, at
-its start and on the way, so that the sum of ``V V'`` over these instants is carried beside the
-state: its root is the growth, |V|.
+How far rounding may carry a run is told by its perturbations.
 """
 
 from bisect import bisect_right
@@ -14,23 +10,30 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..problem import CLOSED, OPEN, RELEASED, Array
-from .flow import BLOCK, PER_PERIOD, Flow, distance_row
+from ..problem import Array
+from .flow import BLOCK, PER_PERIOD, Flow, Layout
 from .guards import Guard, departure, fall, guards_of
+from .impacts import Contacts, Tail
+from .laws.form import Form
+from .perturbations import TOUCHING, Perturbations
 from .problem import SeveralStops
 
-TOUCHING = 2e-13  # of the sizes that a guard is the sum of: nothing but rounding
 MOST_AT_ONCE = 64
 
 
 @dataclass(frozen=True)
 class Event:
-    """A stop's change of state."""
+    """A law's change of state, or an impact."""
 
     time: float
     stop: int
     before: str
     after: str
+
+    @property
+    def states(self) -> tuple[str, str]:
+        """Before and after."""
+        return self.before, self.after
 
 
 @dataclass(frozen=True)
@@ -74,57 +77,70 @@ class ScanSolution:
         self.per_period = per_period
         self.problem, self.exosystem = problem, problem.exosystem()
         self.largest_growth = largest_growth
-        self.flows: dict[tuple[bool, ...], Flow] = {}
+        self.layout = Layout(problem, self.exosystem)
+        self.flows: dict[tuple[str, ...], Flow] = {}
         self.rooms: dict[tuple[str, ...], tuple[list[Guard], Array, Array]] = {}
+        self.perturbations = Perturbations(self.layout)
+        self.contacts = Contacts(self.perturbations, self._flow)
         self.anchors: list[Anchor] = []
         self.events: list[Event] = []
         self.minima: list[Minimum] = []
-        n = problem.omega2.size
-        self.sizes = np.abs(problem.displacement).max(), np.abs(problem.velocity).max()
-        self.blur = np.zeros((2 * n, 2 * n))  # sum of V V', displacements before velocities
-        self.growth = 1.0
         self.end = problem.duration
         self._solve()
+
+    @property
+    def growth(self) -> float:
+        """How much a perturbation may have grown."""
+        return self.perturbations.growth
+
+    @property
+    def tails(self) -> list[Tail]:
+        """Stretches in which rebounds come to their end."""
+        return self.contacts.tails
+
+    @property
+    def sizes(self) -> tuple[float, float]:
+        """The largest displacement and velocity."""
+        return self.perturbations.sizes
 
     # -- what holds while nothing switches -------------------------------------------------
 
     def _flow(self, states: tuple[str, ...]) -> Flow:
-        closed = tuple(state == CLOSED for state in states)
-        if closed not in self.flows:
-            self.flows[closed] = Flow.of(self.problem, self.exosystem, closed, self.per_period)
-        return self.flows[closed]
+        if states not in self.flows:
+            self.flows[states] = Flow.of(self.layout, states, self.per_period)
+        return self.flows[states]
 
     def _room(self, states: tuple[str, ...]) -> tuple[list[Guard], Array, Array]:
         """Return the guards, their rows (state, guard) and their series."""
         if states not in self.rooms:
-            guards = [
-                guard
-                for number, (stop, state) in enumerate(zip(self.problem.stops, states, strict=True))
-                for guard in guards_of(number, stop, state, self.exosystem)
-            ]
+            guards = guards_of(self.layout, states, self._flow(states))
             rows = np.array([guard.row for guard in guards])
-            rows = rows.reshape(
-                len(guards), 2 * self.problem.omega2.size + self.exosystem.start.size
-            )
+            rows = rows.reshape(len(guards), self.layout.size)
             self.rooms[states] = guards, rows.T, self._flow(states).series(rows)
         return self.rooms[states]
 
-    def _first_states(self, z: Array) -> tuple[str, ...]:
-        """Return the states told by the distances; those at zero switch at once if they must."""
-        states = []
-        for number, stop in enumerate(self.problem.stops):
-            push = guards_of(number, stop, CLOSED, self.exosystem)[0].row @ z
-            inside = distance_row(stop, self.exosystem) @ z < 0
-            states.append(OPEN if not inside else CLOSED if push > 0 else RELEASED)
-        return tuple(states)
+    def _start(self) -> tuple[tuple[str, ...], Array]:
+        """Return the states told by the motion; those at zero switch at once if they must."""
+        z, states = self.layout.start(), []
+        for number, law in enumerate(self.layout.laws):
+
+            def value(form: Form[float], number: int = number) -> float:
+                return float(self.layout.row(number, form) @ z)
+
+            state = law.start(value, 1.0)
+            remembered = law.memory("", state, state, 1.0)
+            if remembered is not None:
+                z[2 * self.layout.modes + number] = value(remembered)
+            states.append(state)
+        return tuple(states), z
 
     # -- the run ---------------------------------------------------------------------------
 
     def _solve(self) -> None:
-        p = self.problem
-        z = np.concatenate([p.displacement, p.velocity, self.exosystem.start])
-        states, time, at_once = self._first_states(z), 0.0, 0
+        states, z = self._start()
+        time, at_once = 0.0, 0
         resets = [*self.exosystem.resets, (np.inf, slice(0, 0), np.zeros(0))]
+        states, z = self._meet(states, z, time, None)
         begins = True
         while time < self.end:
             knot = min(resets[0][0], self.end)
@@ -132,20 +148,75 @@ class ScanSolution:
             time = knot if zero is None and time + span >= knot else time + span
             if self.growth > self.largest_growth:
                 self.end = time
+                if zero is not None:  # what it does there is not judged any more
+                    self.contacts.tails.append(Tail(zero.guard.law, time, time))
                 return
             begins = zero is not None
             if zero is not None:
-                before, after = states[zero.guard.stop], zero.guard.after
-                if time > 0.0:  # at the start it only says what the first state is
-                    self.events.append(Event(time, zero.guard.stop, before, after))
-                self._saltation(zero.guard.stop, before, after)
-                states = (*states[: zero.guard.stop], after, *states[zero.guard.stop + 1 :])
+                states, z = self._switch(states, z, time, zero.guard)
                 at_once = at_once + 1 if span == 0.0 else 0
                 if at_once > MOST_AT_ONCE:
                     raise ArithmeticError(f"endless switching at {time}")
             while resets[0][0] <= time:
                 _, place, fresh = resets.pop(0)
-                z[2 * p.omega2.size :][place] = fresh
+                z[self.layout.inner :][place] = fresh
+                begins = True
+
+    def _switch(
+        self, states: tuple[str, ...], z: Array, time: float, guard: Guard
+    ) -> tuple[tuple[str, ...], Array]:
+        """Let a law go over to its next state."""
+        law, before = self.layout.laws[guard.law], states[guard.law]
+        if law.restitution is not None:
+            return self._meet(states, z, time, guard)
+
+        def going_on(state: str) -> tuple[str, ...]:
+            return (*states[: guard.law], state, *states[guard.law + 1 :])
+
+        def sign(state: str, form: Form[float]) -> int:
+            row = self.layout.row(guard.law, form, self._flow(going_on(state)).matrix)
+            value, zero = self.perturbations.value(row, z)
+            return 0 if abs(value) <= zero else 1 if value > 0 else -1
+
+        after = law.follow(before, guard.tried, sign, 1.0)
+        jump = np.eye(self.layout.size)
+        remembered = law.memory(before, guard.tried, after, 1.0)
+        if remembered is not None:
+            jump[2 * self.layout.modes + guard.law] = self.layout.row(guard.law, remembered)
+        self._note(Event(time, guard.law, before, after))
+        return going_on(after), self._cross(jump, states, going_on(after), guard.row, z)
+
+    def _meet(
+        self, states: tuple[str, ...], z: Array, time: float, cause: Guard | None
+    ) -> tuple[tuple[str, ...], Array]:
+        """Let rigid stops in touch do their work."""
+        meeting = self.contacts.meet(states, z, time, cause)
+        if meeting is None:
+            return states, z
+        for law, before, after in meeting.switches:
+            self._note(Event(time, law, before, after))
+        none = np.zeros(self.layout.size)
+        row = none if cause is None else cause.row
+        jumped = self._cross(meeting.jump, states, meeting.states, row, z)
+        return meeting.states, jumped
+
+    def _note(self, event: Event) -> None:
+        if event.time > 0.0:  # at the start it only says what the first state is
+            self.events.append(event)
+
+    def _cross(
+        self,
+        jump: Array,
+        states: tuple[str, ...],
+        following: tuple[str, ...],
+        guard: Array,
+        z: Array,
+    ) -> Array:
+        """Carry state and perturbations through a switch."""
+        jumped: Array = jump @ z
+        fields = self._flow(states).matrix @ z, self._flow(following).matrix @ jumped
+        self.perturbations.cross(jump, fields, guard, z)
+        return jumped
 
     def _block(
         self, states: tuple[str, ...], z: Array, time: float, room: float, begins: bool
@@ -169,30 +240,11 @@ class ScanSolution:
         return zero, span, flow.within(track[step], part) if part else track[step].copy()
 
     def _measure(self, track: Array, flow: Flow, step: int, part: float) -> None:
-        n = self.problem.omega2.size
-        reach = max(self.sizes[0], float(np.abs(track[:, :n]).max()))
-        speed = max(self.sizes[1], float(np.abs(track[:, n : 2 * n]).max()))
-        self.sizes = reach, speed
+        self.perturbations.see(track)
         half = step // 2
         for steps, rest in ((half, 0.0), (step - half, part)):
             carry = flow.powers[steps]
-            carry = (flow.within(carry, rest) if rest else carry)[: 2 * n, : 2 * n]
-            self._carry(carry)
-
-    def _carry(self, carry: Array) -> None:
-        """Add a rounding to the perturbations and carry them on."""
-        size = np.repeat([size or 1.0 for size in self.sizes], carry.shape[0] // 2)
-        self.blur = carry @ (self.blur + np.diag(size**2)) @ carry.T
-        relative = np.sqrt(np.trace(self.blur / size / size[:, None]))
-        self.growth = max(self.growth, float(relative))
-
-    def _saltation(self, number: int, before: str, after: str) -> None:
-        """Let perturbations cross a switch: only a damper's force jumps, where it closes."""
-        stop, n = self.problem.stops[number], self.problem.omega2.size
-        if (before, after) == (OPEN, CLOSED) and stop.damping > 0:
-            jump = np.eye(2 * n)
-            jump[n:, :n] = -stop.damping * np.outer(stop.row, stop.row)
-            self.blur = jump @ self.blur @ jump.T
+            self.perturbations.carry(flow.within(carry, rest) if rest else carry)
 
     # -- zeros -----------------------------------------------------------------------------
 
@@ -219,7 +271,7 @@ class ScanSolution:
             if found.lowest is not None:
                 at = time + step * self._flow(states).step
                 height = abs(found.lowest) / float(size[which])
-                self.minima.append(Minimum(at, guards[which].stop, height))
+                self.minima.append(Minimum(at, guards[which].law, height))
             if found.at is not None and (best is None or found.at < best.part):
                 best = _Zero(step, found.at, guards[which])
         return best

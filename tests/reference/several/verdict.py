@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from ..problem import OPEN, Array
+from .impacts import Tail
+from .laws.rigid_stop import RESTING
+from .laws.spring import Spring
 from .problem import SeveralStops
 from .scan import Event, Minimum, ScanSolution
 
@@ -25,7 +28,14 @@ class Judge(Protocol):
     events: list[Event]
     minima: list[Minimum]
     end: float
-    growth: float
+
+    @property
+    def tails(self) -> Sequence[Tail]:
+        """Stretches in which rebounds come to their end."""
+
+    @property
+    def growth(self) -> float:
+        """How much a perturbation may have grown."""
 
     def motion(self, times: Array) -> tuple[Array, Array]:
         """Return displacement and velocity, each (time, mode)."""
@@ -47,17 +57,33 @@ def inner(events: Sequence[Event], judge: "Judge") -> list[Event]:
     return [event for event in events if edge < event.time < judge.end - edge]
 
 
-def by_stop(events: Sequence[Event], stop: int, settle: float) -> list[Event]:
-    """Return the events of one stop, without pairs that undo each other within an instant."""
-    kept: list[Event] = []
+def by_stop(
+    events: Sequence[Event], stop: int, settle: float, tails: Sequence[Tail] = ()
+) -> list[Event]:
+    """Return the events of one law, each with what follows it within an instant or in a tail.
+
+    Those that undo each other are none. A tail is where rebounds come to their end, of one stop
+    and of whatever else is touched in its rhythm.
+    """
+    chains: list[list[Event]] = []
     for event in events:
         if event.stop != stop:
             continue
-        if kept and event.time - kept[-1].time <= settle and event.after == kept[-1].before:
-            kept.pop()
+        last = chains[-1][-1] if chains else None
+        if last is not None and (
+            event.time - last.time <= settle or (in_tail(last, tails) and in_tail(event, tails))
+        ):
+            chains[-1].append(event)
         else:
-            kept.append(event)
-    return kept
+            chains.append([event])
+    joined = [Event(chain[-1].time, stop, chain[0].before, chain[-1].after) for chain in chains]
+    pairs = zip(joined, chains, strict=True)
+    return [event for event, chain in pairs if len(chain) == 1 or event.before != event.after]
+
+
+def in_tail(event: Event, tails: Sequence[Tail]) -> bool:
+    """Return whether an event lies where rebounds come to their end."""
+    return any(t.start * (1 - 1e-7) <= event.time <= t.end * (1 + 1e-7) for t in tails)
 
 
 @dataclass(frozen=True)
@@ -71,12 +97,17 @@ class Difference:
 
 
 def first_difference(
-    expected: Sequence[Event], found: Sequence[Event], stops: int, end: float
+    expected: Sequence[Event],
+    found: Sequence[Event],
+    stops: int,
+    end: float,
+    tails: Sequence[Tail] = (),
 ) -> Difference | None:
     """Return the first event that only one of the lists has."""
     differences = []
     for stop in range(stops):
-        left, right = by_stop(expected, stop, 1e-12 * end), by_stop(found, stop, 1e-12 * end)
+        lists = (by_stop(events, stop, 1e-12 * end, tails) for events in (expected, found))
+        left, right = lists
         at = next(
             (n for n, pair in enumerate(zip(left, right, strict=False)) if not same(*pair, end)),
             min(len(left), len(right)),
@@ -100,16 +131,16 @@ def undecidable(problem: SeveralStops, judge: Judge, difference: Difference) -> 
     """Return whether rounding decides over an event.
 
     Either a guard came so near to zero before that it may as well have crossed, or the distance
-    stays so near to zero until the stop switches again.
+    stays so near to zero until the law switches again.
     """
     blurred = 1e3 * EPSILON * judge.growth
     if any(m.height < blurred and m.time <= difference.time for m in judge.minima):
         return True
-    stop = problem.stops[difference.stop]
+    row, gap = problem.laws[difference.stop].coordinates[0]
     displacement = judge.motion(np.linspace(difference.time, difference.until, 9))[0]
     reach = np.abs(judge.motion(np.linspace(0.0, judge.end, 9))[0]).max()
-    distance = np.abs(stop.gap + displacement @ stop.row).max()
-    return bool(distance <= blurred * (np.abs(stop.row).sum() * reach + abs(stop.gap)))
+    distance = np.abs(gap + displacement @ row).max()
+    return bool(distance <= blurred * (np.abs(row).sum() * reach + abs(gap)))
 
 
 @dataclass(frozen=True)
@@ -127,13 +158,15 @@ class Verdict:
 
 def compare(problem: SeveralStops, judge: Judge | None = None) -> Verdict:
     """Solve with both, up to where perturbations have grown a millionfold."""
-    judge = judge or ScanSolution(problem, LARGEST_GROWTH)
+    if judge is None:
+        judge = ScanSolution(problem, LARGEST_GROWTH)
     history = problem.but(duration=judge.end).solve()
     inside, found = inner(judge.events, judge), inner(core_events(history), judge)
-    difference = first_difference(inside, found, len(problem.stops), judge.end)
+    difference = first_difference(inside, found, len(problem.laws), judge.end, judge.tails)
     horizon = difference.time if difference else judge.end
     grid = np.linspace(0.0, horizon, SAMPLES + 1)[1:]
     times = np.sort(np.append(grid, [e.time for e in inside if e.time < horizon]))
+    times = apart_from(judge, times)
     errors = state_errors(judge, history, times)
     misplaced = event_errors(problem, judge, inside, found, horizon)
     allowed = 1e-10 + 100 * EPSILON * judge.growth_at(np.append(times, misplaced[0]))
@@ -143,18 +176,32 @@ def compare(problem: SeveralStops, judge: Judge | None = None) -> Verdict:
         events=len(inside),
         difference=difference,
         undecidable=open_question,
-        error=float(errors.max()),
-        excess=float((errors / allowed).max()),
+        error=float(errors.max(initial=0.0)),
+        excess=float((errors / allowed).max(initial=0.0)),
         energy=history.energy_residual(),
         growth=judge.growth,
     )
 
 
+def apart_from(judge: Judge, times: Array) -> Array:
+    """Return the instants at which velocities do not jump, and no rebounds come to their end."""
+    tails = [(t.start, t.end) for t in judge.tails]
+    jump = [e.time for e in judge.events if e.before == e.after or RESTING in e.states]
+    kept = np.ones(times.size, bool)
+    for start, end in tails + [(time, time) for time in jump]:
+        room = judge.end * max(EDGE, 1e4 * EPSILON * judge.growth)
+        kept &= (times < start - room) | (times > end + room)
+    return times[kept]
+
+
 def state_errors(judge: Judge, history: "History", times: Array) -> Array:
     """Return the error of the states at each time, relative to the largest."""
     errors = np.zeros(times.size)
+    if times.size == 0:
+        return errors
+    start = judge.motion(np.zeros(1))
     for derivative, wanted in enumerate(judge.motion(times)):
-        size = np.abs(wanted).max() or 1.0
+        size = max(np.abs(wanted).max(), np.abs(start[derivative]).max()) or 1.0
         apart = np.abs(history.motion(times, derivative) - wanted).max(axis=1)
         errors = np.maximum(errors, apart / size)
     return errors
@@ -167,19 +214,25 @@ def event_errors(
     found: Sequence[Event],
     horizon: float,
 ) -> tuple[Array, Array]:
-    """Return instants at which stops close or open, and how far away the core's stop is then.
+    """Return instants at which laws close, open or meet a break, and how far off the core is then.
 
     That is the time between the two events times the speed, relative to the largest excursion:
     the instant of a graze is blurred, its place is not.
     """
     times, late, rows = [], [], []
-    for number, stop in enumerate(problem.stops):
-        lists = (by_stop(events, number, 1e-12 * judge.end) for events in (expected, found))
+    for number, law in enumerate(problem.laws):
+        lists = (by_stop(e, number, 1e-12 * judge.end, judge.tails) for e in (expected, found))
         for a, b in zip(*lists, strict=False):
-            if a.time < horizon and OPEN in (a.before, a.after):
+            is_placed = OPEN in a.states or isinstance(law, Spring)
+            if (
+                a.time < horizon
+                and is_placed
+                and a.before != RESTING
+                and not in_tail(a, judge.tails)
+            ):
                 times.append(a.time)
                 late.append(abs(a.time - b.time))
-                rows.append(stop.row)
+                rows.append(law.coordinates[0][0])
     if not times:
         return np.zeros(0), np.zeros(0)
     displacement = judge.motion(np.linspace(0.0, horizon, SAMPLES + 1))[0]
