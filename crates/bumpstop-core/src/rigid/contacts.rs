@@ -230,7 +230,7 @@ impl Contacts {
         };
         let is_struck = outcome.impulse > 0.0;
         if is_struck {
-            let rests_at_once = outcome.rests && outcome.end == 0.0;
+            let rests_at_once = outcome.rests && outcome.after == 0.0;
             let after = if rests_at_once {
                 RigidStop::RESTING
             } else {

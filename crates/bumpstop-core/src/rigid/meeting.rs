@@ -159,8 +159,9 @@ impl<L: Law> Meeting<'_, L> {
         let lack: Vec<f64> = some.project(v).iter().map(|u| -u).collect();
         let impulses = some.impulses(&lack);
         some.add(&impulses, v);
-        for (place, impulse) in resting.iter().zip(impulses) {
-            if rates[*place] != 0.0 {
+        // Where one settles all that hold have impulses; else there is nothing but rounding.
+        if resting.iter().any(|&place| rates[place] != 0.0) {
+            for (place, impulse) in resting.iter().zip(impulses) {
                 ends[*place] = impulse;
             }
         }
