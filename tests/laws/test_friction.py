@@ -2,10 +2,12 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import bumpstop as bs
 
@@ -303,3 +305,45 @@ def test_ledger_closes_with_every_damper(dampers: tuple[float, float]) -> None:
         if dampers == (0.0, 0.0):
             dissipated = response.energy_terms()["dissipated_stops"]
             assert (np.diff(dissipated) >= -1e-13 * dissipated[-1]).all()
+
+
+def test_the_friction_force_and_the_state_are_told_over_time(tmp_path: Path) -> None:
+    """A block slides, stops and sticks: mu N against the motion, then what holds the spring."""
+    problem = block(0.0, 0.06, velocity=0.1, friction=0.1, tangential_stiffness=4e5)
+    response = bs.simulate(problem)
+    times = np.linspace(0.0, 0.06, 241)
+    force = response.sample("friction_force", "floor", times=times)
+    states = response.sample("state", "floor", times=times)
+    assert set(states.tolist()) == {"stick", "slip forward", "slip back"}
+    assert force[states == "slip forward"] == pytest.approx(-1.0, rel=1e-9)
+    assert force[states == "slip back"] == pytest.approx(1.0, rel=1e-9)
+    assert (np.abs(force[states == "stick"]) <= 1.0 + 1e-9).all()
+    # The equation of motion knows it, too: x'' = -w^2 x + T.
+    acceleration = response.sample("acceleration", "P", "dx", times=times)
+    assert acceleration + RATE**2 * position(response, times) == pytest.approx(force, abs=1e-9)
+    sampled = response.at(times)
+    assert sampled.friction_force("floor").attrs["units"] == "N"
+    assert sampled.state("floor").values.tolist() == states.tolist()
+    path = tmp_path / "block.nc"
+    sampled.to_netcdf(path)
+    with xr.open_dataset(path, engine="h5netcdf") as file:
+        assert file["friction_force"].values[:, 0] == pytest.approx(force)
+        meanings = file["state"].attrs["flag_meanings"].split()
+        read = [meanings[flag] for flag in file["state"].values[:, 0]]
+    assert read == [name.replace(" ", "_") for name in states.tolist()]
+
+
+def test_the_report_shades_where_the_contact_sticks() -> None:
+    from bumpstop.report import figures
+
+    response = bs.simulate(block(0.0, 0.06, velocity=0.1, friction=0.1, tangential_stiffness=4e5))
+    figure = figures.friction_force(response, "floor")
+    table = response.event_table()
+    spans = zip(
+        [0.0, *table["time"]], [*table["time"], 0.06], ["stick", *table["after"]], strict=True
+    )
+    sticking = [(start, end) for start, end, state in spans if state == "stick" and end > start]
+    shapes = figure["layout"]["shapes"]
+    milliseconds = [(s["x0"], s["x1"]) for s in shapes]
+    assert milliseconds == [pytest.approx((1e3 * a, 1e3 * b)) for a, b in sticking]
+    assert figure["layout"]["title"]["text"] == "Friction force of stop floor"

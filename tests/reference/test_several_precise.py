@@ -4,17 +4,26 @@ import numpy as np
 import pytest
 
 from .several.forced import random_forced
+from .several.multilinear import random_multilinear
 from .several.precise import PreciseSeveral
+from .several.problem import SeveralStops
 from .several.random_problems import random_several
+from .several.rubbing import random_rubbing
 from .several.scan import ScanSolution
 from .several.verdict import EPSILON, LARGEST_GROWTH, by_stop, compare, inner
 
 EVENTS = 50
 
 
-@pytest.mark.parametrize("seed", [1, 13, 14, 17, 19, 21])
-def test_states_after_fifty_events(seed: int) -> None:
-    problem = random_several(seed)
+PROBLEMS = {
+    **{f"stops-{seed}": random_several(seed) for seed in (1, 13, 14, 17, 19, 21)},
+    **{f"friction-{seed}": random_rubbing(seed) for seed in (1, 13, 14, 17)},
+    **{f"springs-{seed}": random_multilinear(seed) for seed in (1, 13, 14)},
+}
+
+
+@pytest.mark.parametrize("problem", PROBLEMS.values(), ids=PROBLEMS)
+def test_states_after_fifty_events(problem: SeveralStops) -> None:
     judge = PreciseSeveral(problem, EVENTS, LARGEST_GROWTH)
     verdict = compare(problem, judge)
     assert len(judge.events) >= 20

@@ -4,8 +4,11 @@ import pytest
 
 from .several.coupled import random_coupled
 from .several.grazing import random_grazing
+from .several.multilinear import random_multilinear
 from .several.problem import SeveralStops
 from .several.random_problems import random_several
+from .several.rigid import random_rigid
+from .several.rubbing import random_rubbing
 from .several.verdict import compare
 
 
@@ -30,3 +33,19 @@ def test_random_problem_of_coupled_modes(seed: int) -> None:
 @pytest.mark.parametrize("seed", [0, 1, 2, 4, 5, 6, 7, 8, 9, 10])
 def test_random_problem_of_a_stop_only_just_touched(seed: int) -> None:
     check(random_grazing(seed))
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3, 5, 8, 10, 12, 33, 209, 255])
+def test_random_problem_of_stops_that_rub(seed: int) -> None:
+    # In the last two the accelerations after a jump of the force decide whether it sticks again.
+    check(random_rubbing(seed))
+
+
+@pytest.mark.parametrize("seed", [0, 2, 4, 6, 8, 10])
+def test_random_problem_of_springs_of_several_slopes(seed: int) -> None:
+    check(random_multilinear(seed))
+
+
+@pytest.mark.parametrize("seed", [2, 4, 9, 15, 17, 26, 29, 41, 1184, 1192])
+def test_random_problem_of_rigid_stops(seed: int) -> None:
+    check(random_rigid(seed))
