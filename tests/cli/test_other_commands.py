@@ -10,6 +10,7 @@ import pytest
 
 import bumpstop as bs
 from bumpstop.cli import main
+from bumpstop.errors import ComputationError
 from bumpstop.io.case import load_case
 from bumpstop.io.schema import case_schema
 
@@ -144,6 +145,75 @@ def test_verify_by_name(cases: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert record["passed"] is True
     assert [case["case"] for case in record["cases"]] == ["good"]
     assert len(record["cases"][0]["variants"]) == 2
+
+
+def test_a_case_that_cannot_be_run_does_not_hide_the_others(
+    cases: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    broken = cases / "a-broken-one" / "case.toml"
+    broken.parent.mkdir()
+    broken.write_text("title = 3\n")
+    assert main(["verify", "--cases", str(cases)]) == 2
+    output, error = capsys.readouterr()
+    lines = output.splitlines()
+    assert lines[1].split() == ["a-broken-one", "could", "NOT", "be", "run"]
+    assert lines[2].endswith("all 12 checks passed")
+    assert lines[4].endswith("1 of 12 checks FAILED")
+    assert lines[-1] == "FAILED"
+    assert error.startswith(f"error: {broken}: title: ")
+    assert error.count("\n") == 1
+    assert main(["verify", "--json", "--cases", str(cases), "a-broken-one", "good"]) == 2
+    output, error = capsys.readouterr()
+    record = json.loads(output)
+    assert record["passed"] is False
+    first, second = record["cases"]
+    assert (first["case"], first["variants"], first["passed"]) == ("a-broken-one", [], False)
+    assert error == f"error: {first['error']}\n"
+    assert second["passed"] is True
+
+
+def test_a_case_that_could_not_be_finished_has_its_own_status(
+    cases: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ComputationError("no way")
+
+    monkeypatch.setattr("bumpstop.cli.solve.check_references", fail)
+    assert main(["verify", "--cases", str(cases)]) == 3
+    assert capsys.readouterr().err.count("variant soft: no way\n") == 2
+
+
+def test_verify_by_a_method_with_steps(capsys: pytest.CaptureFixture[str]) -> None:
+    method = "central_difference"
+    arguments = ["verify", "ball-on-spring", "--cases", str(CASES), "--method", method]
+    assert main(arguments) == 2
+    assert f"run.dt: the {method} method needs a step" in capsys.readouterr().err
+    assert main([*arguments, "--dt", "1e-6"]) == 0
+    assert method in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (["--dt", "1e-5"], "--dt: only methods with fixed steps take it; give --method, too"),
+        (["--dt", "1e-5", "--method", "exact"], "--dt: only methods with fixed steps take it"),
+        (["--dt", "-1", "--method", "symplectic_euler"], "--dt: must be positive"),
+        (["--dt", "a", "--method", "symplectic_euler"], "argument --dt: invalid float value: 'a'"),
+    ],
+)
+def test_steps_that_nothing_takes(
+    given: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", str(SDNL32), *given]) == 2
+    output, error = capsys.readouterr()
+    assert output == ""
+    assert error.startswith(f"error: {says}")
+
+
+def test_the_step_on_the_command_line_is_taken(capsys: pytest.CaptureFixture[str]) -> None:
+    stepped = ["run", str(SDNL32), "--method", "central_difference", "--dt", "2e-6", "--json"]
+    assert main(stepped) == 0
+    assert json.loads(capsys.readouterr().out)["variants"][0]["steps"] == 10_000
 
 
 def test_verify_takes_the_folder_named_cases(

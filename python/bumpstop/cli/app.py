@@ -11,11 +11,14 @@ from argparse import ArgumentParser, ArgumentTypeError, BooleanOptionalAction, N
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import NoReturn, TypeAlias
+from typing import TYPE_CHECKING, NoReturn, TypeAlias
 
 from bumpstop.arguments import did_you_mean
 from bumpstop.cli.console import print_line
 from bumpstop.errors import InputError
+
+if TYPE_CHECKING:
+    from bumpstop.cli.solve import Stepping
 
 __all__ = ["Job", "job"]
 
@@ -137,7 +140,11 @@ def _run(parser: ArgumentParser) -> Callable[[Namespace], int]:
         from bumpstop.cli.run import run_command
 
         return run_command(
-            given.case, method=given.method, out=given.out, json=given.json, report=given.report
+            given.case,
+            stepping=_stepping(given),
+            out=given.out,
+            json=given.json,
+            report=given.report,
         )
 
     return work
@@ -173,7 +180,9 @@ def _verify(parser: ArgumentParser) -> Callable[[Namespace], int]:
     def work(given: Namespace) -> int:
         from bumpstop.cli.verify import verify_command
 
-        return verify_command(given.names, folder=given.cases, method=given.method, json=given.json)
+        return verify_command(
+            given.names, folder=given.cases, stepping=_stepping(given), json=given.json
+        )
 
     return work
 
@@ -187,7 +196,7 @@ def _report(parser: ArgumentParser) -> Callable[[Namespace], int]:
     def work(given: Namespace) -> int:
         from bumpstop.cli.report import report_command
 
-        return report_command(given.case, method=given.method, out=given.out)
+        return report_command(given.case, stepping=_stepping(given), out=given.out)
 
     return work
 
@@ -226,6 +235,14 @@ def _takes_case(parser: ArgumentParser) -> None:
 def _takes_method(parser: ArgumentParser) -> None:
     told = "How to integrate time; as the case says if left out."
     parser.add_argument("--method", metavar="M", help=told)
+    told = "The step of that method in s; as the case says if left out."
+    parser.add_argument("--dt", type=float, metavar="S", help=told)
+
+
+def _stepping(given: Namespace) -> Stepping:
+    from bumpstop.cli.solve import Stepping
+
+    return Stepping(given.method, given.dt)
 
 
 def _takes_folder(parser: ArgumentParser, default: Path | None, told: str) -> None:

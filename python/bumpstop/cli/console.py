@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["Table", "print_json", "print_line", "print_table"]
+__all__ = ["Table", "print_error", "print_json", "print_line", "print_table"]
 
 
 WIDEST = 10_000
@@ -43,6 +44,13 @@ def print_line(text: str = "", *, style: str = "") -> None:
         _rich_console().print(text, style=style, markup=False, highlight=False, soft_wrap=True)
     else:
         print(text)
+
+
+def print_error(what: str) -> None:
+    """Say in one line on standard error what went wrong."""
+    one_line = "".join(char if char.isprintable() else " " for char in f"error: {what}")
+    with suppress(OSError):  # nobody can be told that nothing can be told
+        print(one_line, file=sys.stderr)
 
 
 def print_table(table: Table) -> None:

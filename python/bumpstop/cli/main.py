@@ -8,10 +8,10 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 
 from bumpstop.cli.app import Job, job
+from bumpstop.cli.console import print_error
 from bumpstop.errors import BumpstopError
 
 __all__ = ["run_command_line"]
@@ -52,26 +52,20 @@ def _done(work: Job) -> int:
 def _failed(error: Exception) -> int:
     """Say in one line what went wrong, and return the exit status."""
     if isinstance(error, BumpstopError):
-        _say(f"error: {error}")
+        print_error(str(error))
         return error.exit_status
     if isinstance(error, OSError) and error.errno == errno.ENOSPC:
         _drop_standard_output()
-        _say("error: no space left where the output goes; make room or write elsewhere")
+        print_error("no space left where the output goes; make room or write elsewhere")
         return WRONG_INPUT
     if isinstance(error, MemoryError):
-        _say("error: not enough memory; take fewer samples, elements or modes")
+        print_error("not enough memory; take fewer samples, elements or modes")
         return UNFINISHED
-    _say(
-        f"error: this is a mistake in bumpstop itself: {type(error).__name__}: {error}; "
+    print_error(
+        f"this is a mistake in bumpstop itself: {type(error).__name__}: {error}; "
         "run it again with --debug and report what that prints"
     )
     return UNFINISHED
-
-
-def _say(line: str) -> None:
-    one_line = "".join(char if char.isprintable() else " " for char in line)
-    with suppress(OSError):  # nobody can be told that nothing can be told
-        print(one_line, file=sys.stderr)
 
 
 def _open_what_is_closed() -> None:

@@ -7,18 +7,18 @@ from pathlib import Path
 from bumpstop.cli.console import print_line
 from bumpstop.cli.outputs import REPORT, write_report_alone
 from bumpstop.cli.progress import progress_display
-from bumpstop.cli.solve import solve_case
+from bumpstop.cli.solve import Stepping, solve_case
 from bumpstop.cli.staging import check_writable
 from bumpstop.io.case import load_case
 
 __all__ = ["report_command"]
 
 
-def report_command(path: Path, *, method: str | None, out: Path) -> int:
+def report_command(path: Path, *, stepping: Stepping, out: Path) -> int:
     """Simulate a case and write its report; return the status."""
     case = load_case(path)
     check_writable(out, [REPORT])
-    result = solve_case(case, method, progress_display)
+    result = solve_case(case, stepping, progress_display)
     write_report_alone(result, out)
     print_line(f"written to {out / REPORT}")
     return 0 if result.passed else 1

@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from bumpstop.arguments import did_you_mean
+from bumpstop.arguments import did_you_mean, positive
 from bumpstop.errors import ComputationError, InputError
 from bumpstop.io.case import Case
 from bumpstop.io.case.case import MethodOptions
@@ -16,7 +16,14 @@ from bumpstop.post.references import Check, check_frequencies, check_references
 from bumpstop.response import Response
 from bumpstop.simulate import FIXED_STEP_METHODS, METHODS, simulate
 
-__all__ = ["CaseResult", "Progress", "VariantResult", "frequency_checks", "solve_case"]
+__all__ = [
+    "CaseResult",
+    "Progress",
+    "Stepping",
+    "VariantResult",
+    "frequency_checks",
+    "solve_case",
+]
 
 Progress: TypeAlias = Callable[[str], AbstractContextManager[Callable[[float], None] | None]]
 """Opens a progress display under a name and gives what to call with the fraction done."""
@@ -52,14 +59,33 @@ class CaseResult(NamedTuple):
         return {name: response for name, response, _ in self.variants if response is not None}
 
 
-def solve_case(case: Case, method: str | None, progress: Progress) -> CaseResult:
+class Stepping(NamedTuple):
+    """How to integrate time instead of as a case says; None leaves it to the case."""
+
+    method: str | None = None
+    dt: float | None = None
+
+    def check(self) -> None:
+        """Raise an error where there is no such method, or it has no step."""
+        if self.method is not None and self.method not in METHODS:
+            hint = did_you_mean(self.method, METHODS)
+            raise InputError("unknown method", key="--method", value=self.method, hint=hint)
+        if self.dt is None:
+            return
+        if self.method not in FIXED_STEP_METHODS:
+            hint = f"give --method, too: {' or '.join(FIXED_STEP_METHODS)}"
+            raise InputError("only methods with fixed steps take it", key="--dt", hint=hint)
+        positive("--dt", self.dt)
+
+
+def solve_case(case: Case, stepping: Stepping, progress: Progress) -> CaseResult:
     """Simulate every variant that runs, and compare all with their references.
 
     Parameters
     ----------
     case
         The case.
-    method
+    stepping
         How to integrate time instead of as the case says.
     progress
         Shows how far a variant is.
@@ -67,22 +93,22 @@ def solve_case(case: Case, method: str | None, progress: Progress) -> CaseResult
     Raises
     ------
     InputError
-        If the method is unknown or refuses the case.
+        If the method is unknown, has no such step, or refuses the case.
     ComputationError
         If a variant could not be finished.
     """
-    if method is not None and method not in METHODS:
-        hint = did_you_mean(method, METHODS)
-        raise InputError("unknown method", key="--method", value=method, hint=hint)
-    return CaseResult(case, [_solved(case, name, method, progress) for name in case.bases])
+    stepping.check()
+    return CaseResult(case, [_solved(case, name, stepping, progress) for name in case.bases])
 
 
-def _solved(case: Case, name: str, method: str | None, progress: Progress) -> VariantResult:
+def _solved(case: Case, name: str, stepping: Stepping, progress: Progress) -> VariantResult:
     if name not in case.problems:
         return VariantResult(name, None, frequency_checks(case, name))
     own_method, options = case.methods[name]
-    chosen = method or own_method
+    chosen = stepping.method or own_method
     used = options if chosen in FIXED_STEP_METHODS else MethodOptions()
+    if stepping.dt is not None:
+        used = MethodOptions(**used | {"dt": stepping.dt})
     with _located(case, name), progress(f"{case.name}, {name}") as tell:
         response = simulate(case.problems[name], chosen, progress=tell, **used)
         checks = check_references(response, case.references[name])

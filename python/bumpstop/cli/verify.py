@@ -2,36 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from bumpstop.arguments import one_of
-from bumpstop.cli.console import Table, print_json, print_line, print_table
+from bumpstop.cli.console import Table, print_error, print_json, print_line, print_table
 from bumpstop.cli.progress import progress_display
 from bumpstop.cli.records import case_record
-from bumpstop.cli.solve import CaseResult, VariantResult, solve_case
+from bumpstop.cli.solve import CaseResult, Stepping, VariantResult, solve_case
 from bumpstop.cli.summary import verdict
-from bumpstop.errors import InputError
+from bumpstop.errors import BumpstopError, InputError
 from bumpstop.io.case import load_case
 
 __all__ = ["verify_command"]
 
 
-def verify_command(names: Sequence[str], *, folder: Path, method: str | None, json: bool) -> int:
-    """Check cases of a folder against their references; return the status."""
+def verify_command(names: Sequence[str], *, folder: Path, stepping: Stepping, json: bool) -> int:
+    """Check cases of a folder against their references; return the status.
+
+    A case that cannot be run does not keep the others from being checked.
+    """
     known = _cases(folder)
     chosen = [one_of("case", name, known) for name in names] or known
-    results = [
-        solve_case(load_case(folder / name / "case.toml"), method, progress_display)
-        for name in chosen
-    ]
-    passed = all(result.passed for result in results)
+    stepping.check()
+    results = {name: _result(folder / name / "case.toml", stepping) for name in chosen}
+    status = max(map(_status, results.values()))
+    for result in results.values():
+        if isinstance(result, BumpstopError):
+            print_error(str(result))
     if json:
-        print_json({"cases": [case_record(result) for result in results], "passed": passed})
+        records = [_record(name, result) for name, result in results.items()]
+        print_json({"cases": records, "passed": status == 0})
     else:
         print_table(_table(results))
-        print_line("passed" if passed else "FAILED", style="green" if passed else "bold red")
-    return 0 if passed else 1
+        print_line("FAILED" if status else "passed", style="bold red" if status else "green")
+    return status
+
+
+def _result(path: Path, stepping: Stepping) -> CaseResult | BumpstopError:
+    """Return what came out of a case, or why nothing did."""
+    try:
+        return solve_case(load_case(path), stepping, progress_display)
+    except BumpstopError as error:
+        return error
+
+
+def _status(result: CaseResult | BumpstopError) -> int:
+    if isinstance(result, BumpstopError):
+        return result.exit_status
+    return 0 if result.passed else 1
 
 
 def _cases(folder: Path) -> list[str]:
@@ -45,20 +65,35 @@ def _cases(folder: Path) -> list[str]:
     return names
 
 
-def _table(results: Sequence[CaseResult]) -> Table:
-    lines = [(result, variant) for result in results for variant in result.variants]
+def _record(name: str, result: CaseResult | BumpstopError) -> dict[str, Any]:
+    if isinstance(result, BumpstopError):
+        return {"case": name, "variants": [], "passed": False, "error": str(result)}
+    return case_record(result)
+
+
+def _table(results: dict[str, CaseResult | BumpstopError]) -> Table:
+    rows = [row for name, result in results.items() for row in _rows(name, result)]
     return Table(
         headers=("case", "variant", "method", "of tolerance", "checks"),
-        rows=[_row(result, variant) for result, variant in lines],
-        good=[variant.passed for _, variant in lines],
+        rows=[row for row, _ in rows],
+        good=[good for _, good in rows],
         labels=3,
     )
 
 
-def _row(result: CaseResult, variant: VariantResult) -> tuple[str, ...]:
+def _rows(name: str, result: CaseResult | BumpstopError) -> Iterator[tuple[tuple[str, ...], bool]]:
+    """Yield the lines of a case, and whether each is good."""
+    if isinstance(result, BumpstopError):
+        yield (name, "", "", "", "could NOT be run"), False
+        return
+    for variant in result.variants:
+        yield _row(name, variant), variant.passed
+
+
+def _row(case: str, variant: VariantResult) -> tuple[str, ...]:
     worst = max((check.tolerance_used for check in variant.checks), default=None)
     return (
-        result.case.name,
+        case,
         variant.name,
         "modes" if variant.response is None else variant.response.method,
         "" if worst is None else f"{100 * worst:.0f} %",
