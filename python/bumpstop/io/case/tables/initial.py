@@ -8,14 +8,14 @@ __all__ = ["InitialTable", "ModalStateTable", "RotationTable", "TranslationTable
 
 
 class RotationTable(Table):
-    """The whole structure turns about a node, undeformed."""
+    """The whole structure turns about a node, undeformed; what supports hold stays at rest."""
 
     about: Node = Field(description="The node that stays in place")
     rate: AngularRate3 = Field(description="Rotation vector about X, Y, Z, in rad/s")
 
 
 class TranslationTable(Table):
-    """Nodes move alike along a straight line and do not turn."""
+    """Nodes move alike along a straight line and do not turn; supports hold none of them."""
 
     velocity: Velocity3 = Field(description="Velocity along X, Y, Z, in m/s")
     nodes: list[Node] | None = Field(
