@@ -179,11 +179,6 @@ pub enum Error {
         /// Instant, in s.
         time: f64,
     },
-    /// A load that changes in time pushes coupled motions that nothing holds.
-    #[error(
-        "a load that changes in time drives a motion without stiffness that laws, damping or gyroscopic forces couple to others: this is not supported yet"
-    )]
-    NoRest,
     /// No spectrum of a phase passed its check.
     #[error(
         "the vibration modes with the laws' present states are too close to each other at t = {time:e} s to be separated (relative error {defect:.1e}); change the damping of a mode a little, or take a fixed-step method"

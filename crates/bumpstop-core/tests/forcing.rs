@@ -26,6 +26,8 @@ enum Load {
 struct Case {
     omega2: [f64; MODES],
     damping: [f64; MODES],
+    /// What is added to the damping, of any symmetry, so that modes share exponents.
+    coupling: Option<[[f64; MODES]; MODES]>,
     /// Row, stiffness and damping of a stop that stays closed.
     stop: Option<([f64; MODES], f64, f64)>,
     constant: [f64; MODES],
@@ -40,7 +42,10 @@ const DEPTH: f64 = 1e3;
 
 impl Case {
     fn problem(&self) -> Arc<Problem<Stop>> {
-        let system = ModalSystem::new(self.omega2.into(), self.damping.into()).unwrap();
+        let mut system = ModalSystem::new(self.omega2.into(), self.damping.into()).unwrap();
+        if let Some(matrix) = self.coupling {
+            system = system.with_coupling(matrix.map(Vec::from).into()).unwrap();
+        }
         let (row, gap, k, c) = match self.stop {
             Some((row, k, c)) => (row, -DEPTH, k, c),
             None => ([1.0, 0.0, 0.0], 1e9, 1.0, 0.0),
@@ -98,6 +103,7 @@ impl Case {
             for j in 0..N {
                 matrix[N + i][j] -= k * row[i] * row[j];
                 matrix[N + i][N + j] -= c * row[i] * row[j];
+                matrix[N + i][N + j] -= self.coupling.map_or(0.0, |matrix| matrix[i][j]);
             }
         }
         let mut vector = state.to_vec();
@@ -187,22 +193,25 @@ fn flow(matrix: &[Vec<f64>], vector: &[f64], t: f64) -> Vec<f64> {
 /// of such, and are right to its rounding.
 const MOVED: f64 = 0.1;
 
-/// How well the ledger closes: what follows a polynomial of degree five on a slow, nearly critical
-/// motion is the difference of polynomials a thousand times as large, and energies go with squares.
-const CLOSED: f64 = 1e-7;
+/// How well the ledger closes.
+const CLOSED: f64 = 1e-11;
 
 fn check(case: &Case, tolerance: f64) -> Result<(), TestCaseError> {
-    // A harmonic that hardly turns in the whole run is refused beside motions as slow as it.
-    let history = case.run(Method::Exact);
-    prop_assume!(!matches!(history, Err(Error::NoRest)));
-    let history = history.unwrap();
+    let history = case.run(Method::Exact).unwrap();
     let fractions = [0.0, 0.13, 0.5, 0.77, 1.0];
     let times = fractions.map(|part| part * case.duration);
     let expected: Vec<_> = times.iter().map(|t| case.expected(*t)).collect();
+    // A closed stop is measured from its obstacle, which is DEPTH away: what a soft mode is held by
+    // is the small difference of the stop's force and the load that presses it.
+    let moved = if case.stop.is_some() {
+        1e-2 * DEPTH
+    } else {
+        MOVED
+    };
     let sizes: Vec<f64> = [0..MODES, MODES..2 * MODES]
         .map(|part| {
             let all = expected.iter().flat_map(|state| &state[part.clone()]);
-            all.fold(MOVED, |m: f64, x| m.max(x.abs()))
+            all.fold(moved, |m: f64, x| m.max(x.abs()))
         })
         .into();
     for (order, size) in [Derivative::Displacement, Derivative::Velocity]
@@ -273,6 +282,7 @@ fn case() -> impl Strategy<Value = Case> {
         .prop_map(|(modes, loads, constant, q, v, duration)| Case {
             omega2: modes.map(|m| m.0),
             damping: modes.map(|m| m.1),
+            coupling: None,
             stop: None,
             constant,
             loads,
@@ -295,14 +305,70 @@ proptest! {
         case in case(), row in prop::array::uniform3(0.3f64..1.0), w in 1.0f64..5.0,
         stiffness in 5.0f64..60.0, damping in prop_oneof![Just(0.0), 0.0f64..3.0],
     ) {
-        // Two rigid-body modes behind one stop would have no rest.
+        // What is stiff enough keeps the stop closed.
         let ([a, b, _], [c, d, _]) = (case.omega2, case.damping);
         let case = Case {
-            omega2: [a, b.max(w), 7.0 + w],
-            damping: [c.min(0.1), d.min(0.2), 0.1],
+            omega2: [a, b, 7.0 + w],
+            damping: [c, d, 0.1],
             stop: Some((row, stiffness, damping)),
             ..case
         };
+        check(&case, 1e-10)?;
+    }
+
+    #[test]
+    fn coupled_modes_follow_any_loads(case in case(), along in vector(), spin in -2.0f64..2.0) {
+        let mut matrix = [[0.0; MODES]; MODES];
+        for i in 0..MODES {
+            for j in 0..MODES {
+                matrix[i][j] = along[i] * along[j];
+            }
+        }
+        matrix[0][1] += spin;
+        matrix[1][0] -= spin;
+        let case = Case { coupling: Some(matrix), ..case };
+        check(&case, 1e-10)?;
+    }
+
+    #[test]
+    fn a_damped_rigid_body_is_shaken(
+        case in case(), c in prop_oneof![0.001f64..3.0, 3.0f64..300.0], d in 0.0f64..3.0,
+        along in vector(), omega in prop_oneof![1e-9f64..1e-3, 1e-3f64..1.0],
+        cosine in vector(), sine in vector(),
+    ) {
+        let mut matrix = [[0.0; MODES]; MODES];
+        for i in 0..MODES {
+            for j in 0..MODES {
+                matrix[i][j] = c * along[i] * along[j];
+            }
+            matrix[i][i] += d;
+        }
+        let mut case = Case { omega2: [0.0; MODES], damping: [0.0; MODES], coupling: Some(matrix), ..case };
+        case.loads.push(Load::Harmonic(omega, cosine, sine));
+        check(&case, 1e-10)?;
+    }
+
+    #[test]
+    fn loads_that_resonate_with_equal_exponents_are_followed(
+        case in case(), w in 1.0f64..8.0, xi in prop_oneof![Just(0.0), Just(1.0), 0.0f64..0.01],
+        shift in prop_oneof![Just(0.0), -1e-3f64..1e-3], along in vector(),
+        cosine in vector(), sine in vector(),
+    ) {
+        // Nearly alike modes with a little of a common damper have nearly parallel shapes.
+        let mut matrix = [[0.0; MODES]; MODES];
+        for i in 0..MODES {
+            for j in 0..MODES {
+                matrix[i][j] = 1e-6 * along[i] * along[j];
+            }
+        }
+        matrix[0][1] += 1e-3;
+        let mut case = Case {
+            omega2: [w * w, w * w * (1.0 + 1e-9), case.omega2[2]],
+            damping: [2.0 * xi * w, 2.0 * xi * w, case.damping[2]],
+            coupling: Some(matrix),
+            ..case
+        };
+        case.loads.push(Load::Harmonic(w + shift, cosine, sine));
         check(&case, 1e-10)?;
     }
 
@@ -329,7 +395,7 @@ proptest! {
         omega2.sort_by(f64::total_cmp);
         prop_assume!(omega2[0] * 1.1 < omega2[1] && omega2[1] * 1.1 < omega2[2]);
         let mut case = Case {
-            omega2, damping: [0.0; MODES], stop: Some((row, stiffness, 0.0)),
+            omega2, damping: [0.0; MODES], coupling: None, stop: Some((row, stiffness, 0.0)),
             constant: [0.0; MODES], loads: vec![], q, v, duration: 5.0,
         };
         // The frequency of the closed structure between two poles, or above the last.
@@ -352,6 +418,7 @@ fn an_undamped_oscillator_grows_without_end() {
     let case = Case {
         omega2: [9.0, 1.0, 4.0],
         damping: [0.0; MODES],
+        coupling: None,
         stop: None,
         constant: [0.0; MODES],
         loads: vec![Load::Harmonic(3.0, [1.0, 0.0, 0.0], [0.0; MODES])],
@@ -375,6 +442,7 @@ fn fixed_steps_converge_at_their_order() {
     let case = Case {
         omega2: [4.0, 9.0, 30.0],
         damping: [0.1, 0.0, 0.4],
+        coupling: None,
         stop: None,
         constant: [0.3, 0.0, 0.0],
         loads: vec![

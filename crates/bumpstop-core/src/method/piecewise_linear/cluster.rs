@@ -10,13 +10,11 @@
 //! short time, and the exponentials over that time's doublings, which are squared once
 //! (N. J. Higham, Functions of Matrices, chapter 10).
 //!
-//! A constant force on slow exponents has no position at rest to be measured from. The block is
-//! then *driven*: it is bordered by columns that stay constant, `z' = B z + g f`.
+//! A block may be *driven*, by what has no position at rest to be measured from or moves as it does:
+//! it is bordered by columns that move by themselves, `z' = B z + G u`, `u' = J u`.
 
 use super::rows::{ComplexBlock, entry, set_entry};
-use super::spectrum::Spectrum;
 use crate::number::Complex;
-use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
 /// The most columns of a block.
@@ -44,7 +42,7 @@ pub(crate) struct Cluster {
     pub at: usize,
     /// Its number of columns.
     pub size: usize,
-    /// What the last columns hold, from the start of a phase to its end.
+    /// What the last columns hold at the start of a phase.
     drive: Vec<Complex<f64>>,
     generator: Vec<Complex<f64>>,
     /// The mean exponent, and the generator without it.
@@ -57,6 +55,26 @@ pub(crate) struct Cluster {
     growth: f64,
 }
 
+/// What drives a block: G, J, and u at the start of a phase.
+pub(crate) struct Drive {
+    pub gains: Mat<c64>,
+    pub generator: Mat<c64>,
+    pub values: Vec<Complex<f64>>,
+}
+
+impl Drive {
+    /// A constant, in a unit that makes its column about as large as those of the block.
+    pub(crate) fn constant(force: &Mat<c64>, own: &Mat<c64>, duration: f64) -> Self {
+        let unit = own.norm_l2().max(1.0 / duration);
+        let size = force.norm_l2().max(f64::MIN_POSITIVE);
+        Self {
+            gains: Mat::from_fn(force.nrows(), 1, |r, _| force[(r, 0)] * (unit / size)),
+            generator: Mat::zeros(1, 1),
+            values: vec![Complex::real(size / unit)],
+        }
+    }
+}
+
 impl Cluster {
     /// The block of a square generator, whose columns start at `at`, for times up to the duration.
     pub(crate) fn new(at: usize, generator: &Mat<c64>, duration: f64) -> Self {
@@ -65,21 +83,24 @@ impl Cluster {
         Self::of_entries(at, size, (0..size * size).map(entries).collect(), duration)
     }
 
-    /// The same, driven by constant `f`: bordered by as many columns, which hold it in a unit that
-    /// makes them about as large as the block.
-    pub(crate) fn driven(at: usize, own: &Mat<c64>, f: &[Complex<f64>], duration: f64) -> Self {
+    /// The same, driven.
+    pub(crate) fn driven(at: usize, own: &Mat<c64>, drive: Drive, duration: f64) -> Self {
         let count = own.nrows();
-        let size = 2 * count;
-        let unit = own.norm_l2().max(1.0 / duration);
-        let mut generator = vec![Complex::zero(); size * size];
-        for row in 0..count {
-            for column in 0..count {
-                generator[row * size + column] = complex(own[(row, column)]);
+        let size = count + drive.values.len();
+        let mut generator = Vec::with_capacity(size * size);
+        for row in 0..size {
+            for column in 0..size {
+                let entry = match (row < count, column < count) {
+                    (true, true) => own[(row, column)],
+                    (true, false) => drive.gains[(row, column - count)],
+                    (false, true) => c64::new(0.0, 0.0),
+                    (false, false) => drive.generator[(row - count, column - count)],
+                };
+                generator.push(complex(entry));
             }
-            generator[row * size + count + row] = Complex::real(unit);
         }
         Self {
-            drive: f.iter().map(|f| f.scale(1.0 / unit)).collect(),
+            drive: drive.values,
             ..Self::of_entries(at, size, generator, duration)
         }
     }
@@ -155,7 +176,7 @@ impl Cluster {
         }
     }
 
-    /// How many of its last columns drive it, and stay as they are.
+    /// How many of its last columns drive it.
     pub(crate) fn drives(&self) -> usize {
         self.drive.len()
     }
@@ -198,40 +219,6 @@ impl Cluster {
     /// Whether a column is one of its.
     pub(crate) fn holds(&self, column: usize) -> bool {
         (self.at..self.at + self.size).contains(&column)
-    }
-
-    /// Adds what the groups do under forces on them that go with `exp(turn t)`, half of each with
-    /// its conjugate: `X (turn - B)^-1 Y p/2`, and the same of the conjugate block.
-    pub(crate) fn add_harmonic(
-        &self,
-        spectrum: &Spectrum,
-        turn: Complex<f64>,
-        forces: &[Complex<f64>],
-        to: &mut [Complex<f64>],
-    ) {
-        let count = self.size - self.drive.len();
-        for flip in [|z: Complex<f64>| z, Complex::conj] {
-            let resolvent = Mat::from_fn(count, count, |r, c| {
-                let own = if r == c { turn } else { Complex::zero() };
-                let z = own - flip(self.generator[r * self.size + c]);
-                c64::new(z.re, z.im)
-            });
-            let push = Mat::from_fn(count, 1, |j, _| {
-                let mut total = Complex::zero();
-                for (group, force) in forces.iter().enumerate() {
-                    let left = flip(entry(spectrum.left_velocity(group), self.at + j));
-                    total += left.scale(0.5) * *force;
-                }
-                c64::new(total.re, total.im)
-            });
-            let moved = resolvent.full_piv_lu().solve(&push);
-            for (group, to) in to.iter_mut().enumerate() {
-                for j in 0..count {
-                    let shape = flip(entry(spectrum.shape(group), self.at + j));
-                    *to += shape * complex(moved[(j, 0)]);
-                }
-            }
-        }
     }
 
     /// Numbers that it keeps.

@@ -1,7 +1,7 @@
 //! Spectra by the dense eigenproblem of the state matrix: any damping, any number of laws, any
 //! exponents, near to each other or not.
 
-use super::cluster::{Cluster, complex};
+use super::cluster::{Cluster, Drive, complex};
 use super::coupled::{Coupled, coupled_modes};
 use super::held::Left;
 use super::principal::Principal;
@@ -9,7 +9,7 @@ use super::rows::set_entry;
 use super::secular::Coupling;
 use super::spectrum::{Member, Spectrum};
 use super::splitting::{Part, Split, split};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::law::{Law, Piece, State};
 use crate::number::{Complex, LANES};
 use crate::problem::Problem;
@@ -125,19 +125,14 @@ impl Coupled {
         Ok(())
     }
 
-    /// The position at rest under constant forces.
-    ///
-    /// # Errors
-    /// [`Error::NoRest`] where some motion that they push has no stiffness.
-    pub(crate) fn rest(&self, forces: &Mat<f64>) -> Result<Vec<f64>> {
+    /// The position at rest under constant forces; `None` where some motion that they push has no
+    /// stiffness.
+    pub(crate) fn rest(&self, forces: &Mat<f64>) -> Option<Vec<f64>> {
         let rest = self.statics(forces);
         let lack = &self.stiffness * &rest - forces;
         // Written so that a lack which is not a number is one too large.
         let balanced = lack.norm_max() <= UNBALANCED * forces.norm_max();
-        if !balanced {
-            return Err(Error::NoRest);
-        }
-        Ok((0..rest.nrows()).map(|i| rest[(i, 0)]).collect())
+        balanced.then(|| (0..rest.nrows()).map(|i| rest[(i, 0)]).collect())
     }
 
     fn statics(&self, forces: &Mat<f64>) -> Mat<f64> {
@@ -193,7 +188,7 @@ impl<'a> Layout<'a> {
         let mut placed = Vec::with_capacity(parts.len());
         for part in ordered {
             placed.push((part, columns));
-            columns += part.generator.nrows() * if is_driven(part) { 2 } else { 1 };
+            columns += part.generator.nrows() + usize::from(is_driven(part));
         }
         Self {
             parts: placed,
@@ -224,8 +219,8 @@ impl<'a> Layout<'a> {
                 let n = principal.force.nrows();
                 let force = Mat::from_fn(n, 1, |i, _| c64::new(principal.force[(i, 0)], 0.0));
                 let drive = rows * force;
-                let drive: Vec<_> = (0..count).map(|i| complex(drive[(i, 0)])).collect();
-                let cluster = Cluster::driven(at, &part.generator, &drive, duration);
+                let drive = Drive::constant(&drive, &part.generator, duration);
+                let cluster = Cluster::driven(at, &part.generator, drive, duration);
                 spectrum.clusters.push(cluster);
             } else if count > 1 {
                 spectrum

@@ -2,7 +2,6 @@
 
 use super::coupled::Coupled;
 use super::secular::Coupling;
-use crate::error::{Error, Result};
 use crate::number::Complex;
 use faer::Mat;
 
@@ -15,13 +14,13 @@ pub(crate) enum Impedance<'a> {
 }
 
 impl Impedance<'_> {
-    /// `K^-1 p`
-    pub(crate) fn rest(&self, forces: &[f64]) -> Result<Vec<f64>> {
+    /// `K^-1 p`; `None` where some motion that it pushes has no stiffness.
+    pub(crate) fn rest(&self, forces: &[f64]) -> Option<Vec<f64>> {
         match self {
             Self::OneLaw(coupling) => {
                 let forces: Vec<_> = forces.iter().map(|p| Complex::real(*p)).collect();
                 let rest = behind_one_law(coupling, 0.0, &forces)?;
-                Ok(rest.iter().map(|y| y.re).collect())
+                Some(rest.iter().map(|y| y.re).collect())
             }
             Self::Dense(coupled) => coupled.rest(&Mat::from_fn(forces.len(), 1, |i, _| forces[i])),
         }
@@ -42,15 +41,15 @@ impl Impedance<'_> {
         }
     }
 
-    /// `(K + i omega C - omega^2)^-1 p`
+    /// `(K + i omega C - omega^2)^-1 p`; `None` where several motions resist nothing.
     pub(crate) fn harmonic(
         &self,
         omega: f64,
         forces: &[Complex<f64>],
-    ) -> Result<Vec<Complex<f64>>> {
+    ) -> Option<Vec<Complex<f64>>> {
         match self {
             Self::OneLaw(coupling) => behind_one_law(coupling, omega, forces),
-            Self::Dense(coupled) => Ok(coupled.harmonic(omega, forces)),
+            Self::Dense(coupled) => Some(coupled.harmonic(omega, forces)),
         }
     }
 }
@@ -66,7 +65,7 @@ fn behind_one_law(
     coupling: &Coupling,
     omega: f64,
     forces: &[Complex<f64>],
-) -> Result<Vec<Complex<f64>>> {
+) -> Option<Vec<Complex<f64>>> {
     let Coupling {
         omega2,
         damping,
@@ -86,7 +85,7 @@ fn behind_one_law(
     for i in 0..dynamic.len() {
         if i != soft {
             if dynamic[i].norm2() == 0.0 {
-                return Err(Error::NoRest);
+                return None;
             }
             let share = dynamic[i].recip().scale(phi[i]);
             pushed += share * forces[i];
@@ -104,7 +103,7 @@ fn behind_one_law(
             (forces[i] + force.scale(phi[i])) * dynamic[i].recip()
         }
     });
-    Ok(solution.collect())
+    Some(solution.collect())
 }
 
 #[cfg(test)]

@@ -28,7 +28,6 @@ mod principal;
 mod product;
 mod quadrature;
 mod record;
-mod resonance;
 mod response;
 mod rows;
 mod secular;

@@ -1,5 +1,6 @@
 //! Phases: stretches of time in which no law switches, kept as amplitudes of exponentials.
 
+use super::cluster::Cluster;
 use super::response::Response;
 use super::rows::{ComplexBlock, entry, set_entry};
 use super::single_mode::Kept;
@@ -93,18 +94,19 @@ impl Workspace {
     }
 
     /// A state less what follows the loads at their onset.
-    fn less_loads(&mut self, response: &Response, q: &[f64], v: &[f64]) -> Free {
+    fn less_loads(
+        &mut self,
+        response: &Response,
+        clusters: &[Cluster],
+        q: &[f64],
+        v: &[f64],
+    ) -> Free {
         let mut free = std::mem::take(&mut self.free);
         free.q.clear();
         free.q.extend_from_slice(q);
         free.v.clear();
         free.v.extend_from_slice(v);
-        let Onset {
-            coefficients,
-            units,
-        } = &self.onset;
-        let units = |harmonic: usize| units[harmonic];
-        response.add_motion(-1.0, coefficients, units, 0.0, &mut free.q, &mut free.v);
+        response.subtract_start(clusters, &self.onset, &mut free.q, &mut free.v);
         free
     }
 }
@@ -153,8 +155,9 @@ impl Phases {
         v: &[f64],
         work: &mut Workspace,
     ) -> Result<()> {
-        let response = self.spectra[spectrum].response.as_ref();
-        let free = response.map(|response| work.less_loads(response, q, v));
+        let which = &self.spectra[spectrum];
+        let response = which.response.as_ref();
+        let free = response.map(|response| work.less_loads(response, &which.clusters, q, v));
         let (q, v) = free.as_ref().map_or((q, v), |free| (&free.q, &free.v));
         let phase = Phase {
             start,
@@ -165,7 +168,6 @@ impl Phases {
             states: self.states.len(),
             coefficients: self.coefficients.len(),
         };
-        let which = &self.spectra[spectrum];
         work.fit(which.lambda.len());
         work.z.fill(ComplexBlock::ZERO);
         work.position.resize(which.combinations, 0.0);
@@ -206,15 +208,13 @@ impl Phases {
 
     /// Keeps the loads of a phase that has just begun.
     fn keep_loads(&mut self, phase: Phase, onset: &Onset) {
-        let Some(response) = &self.spectra[phase.spectrum].response else {
+        let spectrum = &self.spectra[phase.spectrum];
+        let Some(response) = &spectrum.response else {
             return;
         };
         self.coefficients.extend_from_slice(&onset.coefficients);
-        response.keep_slow_loads(onset, &mut self.kept);
         let amplitudes = &mut self.amplitudes[phase.amplitudes..];
-        for (harmonic, unit) in onset.units.iter().enumerate() {
-            set_entry(amplitudes, response.at + harmonic, *unit);
-        }
+        response.set_loads(&spectrum.clusters, onset, amplitudes);
     }
 
     /// Ends the latest phase.
@@ -238,15 +238,13 @@ impl Phases {
         &self.amplitudes[phase.amplitudes..][..blocks]
     }
 
-    /// Initial position and velocity of a single motion, and the load on it where it is slow.
+    /// Initial position and velocity of a single motion.
     #[inline(always)]
-    pub(crate) fn kept(&self, phase: Phase, single: usize) -> Kept<'_> {
+    pub(crate) fn kept(&self, phase: Phase, single: usize) -> Kept {
         let kept = &self.kept[phase.kept..];
-        let response = self.spectra[phase.spectrum].response.as_ref();
         Kept {
             x: kept[2 * single],
             v: kept[2 * single + 1],
-            load: response.map_or(&[], |response| response.slow_load(single, kept)),
         }
     }
 
@@ -325,7 +323,8 @@ impl Phases {
         }
         if let Some(response) = &spectrum.response {
             let units = |harmonic: usize| self.unit(phase, response, harmonic);
-            response.add_motion(1.0, self.coefficients(phase), units, t, q, v);
+            let coefficients = self.coefficients(phase);
+            response.add_to(&spectrum.clusters, &work.z, coefficients, units, t, [q, v]);
         }
     }
 

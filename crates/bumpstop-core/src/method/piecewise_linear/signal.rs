@@ -7,7 +7,6 @@ use super::jet::{Jet, Jets};
 use super::phase::{Phase, Phases};
 use super::polynomial::Polynomial;
 use super::product::{Factor, Other, grown};
-use super::resonance::Resonant;
 use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
 use super::spectrum::Spectrum;
 use super::tables::CELLS;
@@ -34,8 +33,6 @@ struct Special {
     single: usize,
     of_position: f64,
     of_velocity: f64,
-    /// Factor of the load that a slow motion is kept with.
-    of_load: f64,
     third: f64,
 }
 
@@ -55,13 +52,12 @@ impl Terms {
     };
 }
 
-/// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials + resonances`.
+/// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Signal {
     pub terms: Vec<Terms>,
     polynomial: Polynomial,
     specials: Vec<Special>,
-    resonances: Vec<Resonant>,
     clustered: Clustered,
     remaining: f64,
     /// `sum |b| |lambda|^n`
@@ -100,7 +96,6 @@ impl Signal {
         let spectrum = &phases.spectra[phase.spectrum];
         self.polynomial.start(function.constant);
         self.specials.clear();
-        self.resonances.clear();
         self.remaining = remaining;
         let amplitudes = phases.amplitudes(phase);
         self.terms.resize(amplitudes.len(), Terms::ZERO);
@@ -165,18 +160,16 @@ impl Signal {
             let (mut position, mut velocity) = (weight * of_position, weight * of_velocity);
             let acceleration = weight * of_acceleration;
             if motion.is_special() {
-                // x'' = force + load - c x' - w2 x
+                // x'' = force - c x' - w2 x
                 self.polynomial.add(0, acceleration * motion.force);
                 position -= acceleration * motion.omega2;
                 velocity -= acceleration * motion.damping;
                 let third = position.abs() * motion.special_bound(3, kept, self.remaining)
-                    + velocity.abs() * motion.special_bound(4, kept, self.remaining)
-                    + acceleration.abs() * kept.load_bound(3, self.remaining);
+                    + velocity.abs() * motion.special_bound(4, kept, self.remaining);
                 self.specials.push(Special {
                     single,
                     of_position: position,
                     of_velocity: velocity,
-                    of_load: acceleration,
                     third,
                 });
                 self.totals[0] += position.abs() * kept.x.abs() + velocity.abs() * kept.v.abs();
@@ -228,9 +221,6 @@ impl Signal {
         if self.growth.rate > 0.0 {
             bound += self.rounding_of_growth(sum, t);
         }
-        if !self.resonances.is_empty() {
-            bound += self.rounding_of_resonances(t);
-        }
         bound
     }
 
@@ -241,8 +231,7 @@ impl Signal {
 
     /// Whether it keeps within such a distance of zero, being nothing but a constant and rounding.
     pub(crate) fn stays(&self, distance: f64) -> bool {
-        let is_still = self.specials.is_empty() && self.resonances.is_empty();
-        is_still && self.size(self.remaining) <= distance
+        self.specials.is_empty() && self.size(self.remaining) <= distance
     }
 
     /// The signal's rate.
@@ -278,21 +267,15 @@ impl Signal {
             let single = special.single;
             let motion = &spectrum.singles[single].motion;
             let kept = phases.kept(phase, single);
-            // x'' = force + load - c x' - w2 x
+            // x'' = force - c x' - w2 x
             let velocity = special.of_velocity;
             rate.polynomial.add(0, velocity * motion.force);
-            special.of_load = velocity;
             special.of_velocity = special.of_position - motion.damping * velocity;
             special.of_position = -motion.omega2 * velocity;
             let bound = |order| motion.special_bound(order, kept, self.remaining);
             special.third =
                 special.of_position.abs() * bound(3) + special.of_velocity.abs() * bound(4);
-            special.third += velocity.abs() * kept.load_bound(3, self.remaining);
             rate.totals[0] += special.of_velocity.abs() * kept.v.abs();
-        }
-        rate.resonances.clear();
-        for resonant in &self.resonances {
-            rate.add_resonant_rate(*resonant);
         }
         rate
     }
@@ -312,10 +295,6 @@ impl Signal {
         for special in &mut self.specials {
             special.of_position = -special.of_position;
             special.of_velocity = -special.of_velocity;
-            special.of_load = -special.of_load;
-        }
-        for resonant in &mut self.resonances {
-            resonant.weight = -resonant.weight;
         }
     }
 
@@ -338,11 +317,8 @@ impl Signal {
             let [x, ..] = motion.special(kept, t);
             total += special.of_position * motion.special_integral(kept, t);
             total += special.of_velocity * (x - kept.x);
-            total += special.of_load * kept.load(-1, t);
         }
-        total += self.clustered.integral(phases, phase, t);
-        let resonances = self.resonances.iter();
-        total + resonances.map(|resonant| resonant.integral(t)).sum::<f64>()
+        total + self.clustered.integral(phases, phase, t)
     }
 
     /// The signal as a factor of a product.
@@ -351,10 +327,8 @@ impl Signal {
             let motion = &phases.spectra[phase.spectrum].singles[special.single].motion;
             motion.omega2.abs().sqrt().max(motion.damping)
         });
-        let paces = paces.chain(self.resonances.iter().map(|r| r.lambda.norm().max(r.omega)));
         let own = self.clustered.pace(&phases.spectra[phase.spectrum]);
-        let has_other =
-            !(self.specials.is_empty() && self.resonances.is_empty() && self.clustered.is_empty());
+        let has_other = !(self.specials.is_empty() && self.clustered.is_empty());
         let other = has_other.then(|| Other {
             pace: paces.fold(own, f64::max),
             value: Box::new(move |t| {
@@ -395,11 +369,6 @@ impl Signal {
             bounds[0] += position * v + velocity * a;
             bounds[1] += position * a + velocity * jerk.max(motion.damping * a);
         }
-        for resonant in &self.resonances {
-            let size = resonant.weight.norm();
-            bounds[0] += size;
-            bounds[1] += size * (resonant.lambda.norm() + resonant.omega);
-        }
         let p = self.polynomial.terms();
         [
             ROUNDING * (bounds[0] + p[1].abs()),
@@ -414,9 +383,6 @@ impl Signal {
         let mut pace = if size > 0.0 { bending / size } else { 0.0 };
         for special in &self.specials {
             pace = pace.max(spectrum.singles[special.single].motion.omega2.abs());
-        }
-        for resonant in &self.resonances {
-            pace = pace.max(resonant.omega * resonant.omega);
         }
         pace.sqrt()
     }
@@ -543,7 +509,7 @@ impl Signal {
     /// Whether it is a sum of exponentials and a short polynomial, beside clusters.
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        self.specials.is_empty() && self.resonances.is_empty() && self.polynomial.is_short()
+        self.specials.is_empty() && self.polynomial.is_short()
     }
 
     /// Bound of the third derivative of what is not exponential, up to t.
@@ -552,7 +518,7 @@ impl Signal {
         if self.is_plain() {
             return 0.0;
         }
-        let mut third = self.third_of_loads(t);
+        let mut third = self.polynomial.third(t);
         for special in &self.specials {
             third += special.third;
         }
@@ -566,7 +532,7 @@ impl Signal {
         self.add_specials(phases, phase, t, values);
     }
 
-    /// Special parts and resonances.
+    /// Special parts.
     #[inline(always)]
     fn add_specials(&self, phases: &Phases, phase: Phase, t: f64, values: &mut [f64; 3]) {
         for special in &self.specials {
@@ -575,16 +541,6 @@ impl Signal {
             let [x, v, a, jerk] = motion.special(kept, t);
             for (value, (x, v)) in values.iter_mut().zip([(x, v), (v, a), (a, jerk)]) {
                 *value += special.of_position * x + special.of_velocity * v;
-            }
-            if special.of_load != 0.0 {
-                for (value, order) in values.iter_mut().zip(0..) {
-                    *value += special.of_load * kept.load(order, t);
-                }
-            }
-        }
-        for resonant in &self.resonances {
-            for (value, part) in values.iter_mut().zip(resonant.values(t)) {
-                *value += part;
             }
         }
     }

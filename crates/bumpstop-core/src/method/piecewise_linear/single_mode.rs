@@ -4,7 +4,6 @@
 //! exponentials), drift without stiffness, and two that no sum of exponentials serves well:
 //! near critical damping, and so slow that the whole run is a small part of a period.
 
-use super::polynomial::{derivative_at, of_derivative};
 use crate::number::{Complex, Number};
 
 /// Slow: `w T` and `c T` below this over the run's length T. Faster modes lose at most a
@@ -39,26 +38,11 @@ pub(crate) enum Regime {
 }
 
 /// What is kept of a mode for a phase: its state at the start, less what follows the loads that
-/// change in time, and for a slow mode the coefficients of those loads in the time since then.
+/// change in time.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Kept<'a> {
+pub(crate) struct Kept {
     pub x: f64,
     pub v: f64,
-    pub load: &'a [f64],
-}
-
-impl Kept<'_> {
-    /// The load's value or one of its derivatives at t.
-    pub(crate) fn load(&self, order: i32, t: f64) -> f64 {
-        derivative_at(self.load, order, t)
-    }
-
-    /// A bound of it from 0 to t.
-    pub(crate) fn load_bound(&self, order: i32, t: f64) -> f64 {
-        (0..self.load.len()).rev().fold(0.0, |bound, power| {
-            bound * t + of_derivative(self.load, order, power).abs()
-        })
-    }
 }
 
 /// A mode's constants.
@@ -179,35 +163,29 @@ impl SingleMode {
     }
 
     /// Value and first three derivatives of a special mode at time t after the start.
-    pub(crate) fn special(&self, kept: Kept<'_>, t: f64) -> [f64; 4] {
+    pub(crate) fn special(&self, kept: Kept, t: f64) -> [f64; 4] {
         let (x, v) = match self.regime {
             Regime::Slow => self.taylor(kept, t),
             _ => self.near_critical(kept.x, kept.v, t),
         };
-        let a = self.force + kept.load(0, t) - self.damping * v - self.omega2 * x;
-        [
-            x,
-            v,
-            a,
-            kept.load(1, t) - self.damping * a - self.omega2 * v,
-        ]
+        let a = self.force - self.damping * v - self.omega2 * x;
+        [x, v, a, -self.damping * a - self.omega2 * v]
     }
 
     /// A bound of the third (`order` 3) or fourth (4) derivative of a special mode over a phase.
-    pub(crate) fn special_bound(&self, order: usize, kept: Kept<'_>, duration: f64) -> f64 {
+    pub(crate) fn special_bound(&self, order: usize, kept: Kept, duration: f64) -> f64 {
         let (w2, c, p) = (self.omega2, self.damping, self.force);
         let (x0, v0) = (kept.x, kept.v);
         if self.regime == Regime::Slow {
             // speed <= |v0| + (|p| + |w2| (|x0| + speed T)) T, and |w2| T^2 < 1/2.
-            let push = p.abs() + kept.load_bound(0, duration);
-            let speed = 2.0 * (v0.abs() + (push + w2.abs() * x0.abs()) * duration);
+            let speed = 2.0 * (v0.abs() + (p.abs() + w2.abs() * x0.abs()) * duration);
             let size = x0.abs() + speed * duration;
-            let second = push + c * speed + w2.abs() * size;
-            let third = kept.load_bound(1, duration) + c * second + w2.abs() * speed;
+            let second = p.abs() + c * speed + w2.abs() * size;
+            let third = c * second + w2.abs() * speed;
             return if order == 3 {
                 third
             } else {
-                kept.load_bound(2, duration) + c * third + w2.abs() * second
+                c * third + w2.abs() * second
             };
         }
         // v^2 + w2 x^2 never grows (x from rest), and each derivative is some row . (v, x).
@@ -220,7 +198,7 @@ impl SingleMode {
     }
 
     /// Integral of a special mode's displacement from the start of the phase to t.
-    pub(crate) fn special_integral(&self, kept: Kept<'_>, t: f64) -> f64 {
+    pub(crate) fn special_integral(&self, kept: Kept, t: f64) -> f64 {
         if self.regime == Regime::Slow {
             return gauss_legendre(t, |t| self.special(kept, t)[0]);
         }
@@ -242,26 +220,24 @@ impl SingleMode {
         )
     }
 
-    fn taylor(&self, kept: Kept<'_>, t: f64) -> (f64, f64) {
+    fn taylor(&self, kept: Kept, t: f64) -> (f64, f64) {
         let (mut x, mut v) = (0.0, 0.0);
         let (mut low, mut high) = (kept.x, kept.v);
-        let (mut power, mut factorial) = (1.0, 1.0);
+        let mut power = 1.0;
         for n in 0..TAYLOR_TERMS {
             x += low * power;
             v += high * power;
             let constant = if n == 0 { self.force } else { 0.0 };
-            let load = kept.load.get(n).map_or(0.0, |c| c * factorial);
-            let next = constant + load - self.damping * high - self.omega2 * low;
+            let next = constant - self.damping * high - self.omega2 * low;
             (low, high) = (high, next);
             power *= t / (n + 1) as f64;
-            factorial *= (n + 1) as f64;
         }
         (x, v)
     }
 
     /// `c` times the integral of the squared velocity from the start of the phase to t. The
     /// rates of the mode's exponentials at both ends are given.
-    pub(crate) fn dissipation(&self, kept: Kept<'_>, t: f64, rates: [Rates; 2]) -> f64 {
+    pub(crate) fn dissipation(&self, kept: Kept, t: f64, rates: [Rates; 2]) -> f64 {
         let c = self.damping;
         if c == 0.0 {
             return 0.0;
@@ -347,8 +323,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn free(x: f64, v: f64) -> Kept<'static> {
-        Kept { x, v, load: &[] }
+    fn free(x: f64, v: f64) -> Kept {
+        Kept { x, v }
     }
 
     fn motion(mode: &SingleMode, x0: f64, v0: f64, t: f64) -> (f64, f64) {

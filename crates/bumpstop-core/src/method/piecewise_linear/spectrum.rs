@@ -10,10 +10,10 @@ use super::dense;
 use super::grouping::{Acting, Acts, group_alike, group_forces, static_groups};
 use super::held::{Held, Reaction};
 use super::impedance::Impedance;
-use super::response::{Response, is_slow};
+use super::response::Response;
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
-use super::single_mode::{Regime, SingleMode};
+use super::single_mode::SingleMode;
 use super::view::View;
 use crate::error::Result;
 use crate::law::{Law, State};
@@ -136,7 +136,7 @@ impl Spectrum {
         spectrum.lay_out_exponents(problem);
         spectrum.measure_exponents::<I>();
         if problem.forcing.varies() {
-            spectrum.respond(problem, bench)?;
+            spectrum.respond(problem, bench);
         }
         let mut views = std::mem::take(&mut spectrum.views);
         let mut count = 0;
@@ -192,7 +192,7 @@ impl Spectrum {
 
     /// Finds how it follows loads that change in time.
     #[cold]
-    fn respond<L: Law>(&mut self, problem: &Problem<L>, bench: &Workbench) -> Result<()> {
+    fn respond<L: Law>(&mut self, problem: &Problem<L>, bench: &Workbench) {
         let by_one = matches!(Acts::of(problem, &self.states), Acts::One(_));
         let impedance = if self.groups == 0 {
             None
@@ -203,9 +203,15 @@ impl Spectrum {
             Some(Impedance::Dense(Box::new(coupled)))
         };
         let forcing = &problem.forcing;
-        let response = Response::new(forcing, self, impedance.as_ref(), problem.duration)?;
+        let (response, mut clusters) =
+            Response::new(forcing, self, impedance.as_ref(), problem.duration);
         self.response = Some(Box::new(response));
-        Ok(())
+        // Their columns turn by the clusters alone.
+        let columns = clusters.last().map_or(0, |last| last.at + last.size);
+        let blocks = self.lambda.len().max(columns.div_ceil(LANES));
+        self.lambda.resize(blocks, ComplexBlock::ZERO);
+        self.moduli.resize(blocks, RealBlock::ZERO);
+        self.clusters.append(&mut clusters);
     }
 
     /// One spring and damper: the secular equation, or the dense problem where it declines.
@@ -377,7 +383,7 @@ impl Spectrum {
         let damping = modal + added;
         self.singles.push(Single {
             subject: Subject::Combination,
-            motion: single_motion(problem, stiffness, damping, force),
+            motion: SingleMode::new(stiffness, damping, force, problem.duration),
             at: 0,
             modal_share: if damping > 0.0 { modal / damping } else { 0.0 },
             law: Some(law.law),
@@ -395,7 +401,7 @@ impl Spectrum {
     ) {
         self.singles.push(Single {
             subject: Subject::Combination,
-            motion: single_motion(problem, stiffness, damping, force),
+            motion: SingleMode::new(stiffness, damping, force, problem.duration),
             at: 0,
             modal_share: 1.0,
             law: None,
@@ -436,7 +442,7 @@ impl Spectrum {
             let force = forces[mode] - pushed[mode];
             self.singles.push(Single {
                 subject: Subject::Mode(mode),
-                motion: single_motion(problem, omega2[mode], damping[mode], force),
+                motion: SingleMode::new(omega2[mode], damping[mode], force, problem.duration),
                 at: 0,
                 modal_share: 1.0,
                 law: None,
@@ -555,23 +561,6 @@ impl Spectrum {
 
 /// Half of the lanes.
 const HALF: usize = LANES / 2;
-
-/// A motion by itself. One without stiffness under a load that takes longer than the run for a
-/// turn is followed by its Taylor series.
-#[inline(always)]
-fn single_motion<L: Law>(
-    problem: &Problem<L>,
-    omega2: f64,
-    damping: f64,
-    force: f64,
-) -> SingleMode {
-    let mut motion = SingleMode::new(omega2, damping, force, problem.duration);
-    let mut harmonics = problem.forcing.harmonics().iter();
-    if motion.regime == Regime::Free && harmonics.any(|h| is_slow(h.omega, problem.duration)) {
-        motion.regime = Regime::Slow;
-    }
-    motion
-}
 
 /// Whether a position at rest lies beyond what the forces can do in a run: the motion, measured
 /// from there, would lose its digits.

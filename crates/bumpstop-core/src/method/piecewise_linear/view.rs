@@ -23,10 +23,6 @@ pub(crate) struct View {
     pub drifting: Vec<usize>,
     /// Weight of each link of the response to loads that change in time.
     pub links: Vec<f64>,
-    /// Weight of each column of its gradual exponents.
-    pub gradual: Vec<Complex<f64>>,
-    /// Weight of each of its resonances.
-    pub resonances: Vec<Complex<f64>>,
 }
 
 impl View {
@@ -54,7 +50,8 @@ impl View {
             self.exponents[b].put(total);
         }
         self.clusters.clear();
-        for cluster in &spectrum.clusters {
+        let following = spectrum.response.as_ref().map_or(0, |r| r.followers.len());
+        for cluster in &spectrum.clusters[..spectrum.clusters.len() - following] {
             for column in cluster.at..cluster.at + cluster.size {
                 self.clusters.push(entry(&self.exponents, column));
                 set_entry(&mut self.exponents, column, Complex::zero());
@@ -84,15 +81,13 @@ impl View {
             }
         }
         self.links.clear();
-        self.gradual.clear();
-        self.resonances.clear();
         if let Some(response) = &spectrum.response {
-            self.see_loads(response, row);
+            self.see_loads(response, &spectrum.clusters, row);
         }
     }
 
     /// How a row sees what follows loads that change in time.
-    fn see_loads(&mut self, response: &Response, row: &[f64]) {
+    fn see_loads(&mut self, response: &Response, clusters: &[Cluster], row: &[f64]) {
         let seen = |shape: &[Complex<f64>]| {
             (row.iter().zip(shape)).fold(Complex::zero(), |total, (r, z)| z.scale_add(*r, total))
         };
@@ -100,14 +95,14 @@ impl View {
             let seen = row.iter().zip(&link.row).map(|(r, a)| r * a).sum();
             self.links.push(seen);
         }
-        for row in response.gradual.iter().flat_map(|gradual| &gradual.rows) {
-            self.gradual.push(seen(row));
-        }
         for (harmonic, shape) in response.shapes.iter().enumerate() {
             set_entry(&mut self.exponents, response.at + harmonic, seen(shape));
         }
-        for resonance in &response.resonances {
-            self.resonances.push(seen(&resonance.row));
+        for (follower, cluster) in response.following(clusters) {
+            self.clusters
+                .extend(follower.shapes.iter().map(|shape| seen(shape)));
+            let load = std::iter::repeat_n(Complex::zero(), cluster.drives());
+            self.clusters.extend(load);
         }
     }
 

@@ -11,28 +11,27 @@
 //! begins with integrals of f (orders -1 and -2), taken from the start of the phase. A harmonic
 //! load is followed by `(K + i omega C - omega^2)^-1 g exp(i omega t)`: one more exponent of the
 //! phase, the same in all modes. What is left, the state less both at the start of the phase, moves
-//! freely. Where load and motion resonate the part of the resonant exponent is split off, see
-//! [`super::resonance`].
+//! freely. Exponents that are slow beside a polynomial or resonate with a harmonic follow it from
+//! rest instead, see [`follower`].
 
-mod gradual;
+mod block;
+mod follower;
 mod parts;
 mod single;
-mod slow;
 
-pub(crate) use gradual::{POWERS, Series};
-pub(crate) use single::is_slow;
+pub(crate) use follower::{Follower, Leader};
 
+use super::cluster::Cluster;
 use super::impedance::Impedance;
 use super::polynomial::derivative_at;
-use super::resonance::{Resonant, resonates};
-use super::rows::entry;
+use super::rows::{ComplexBlock, set_entry};
 use super::spectrum::Spectrum;
-use crate::error::{Error, Result};
 use crate::forcing::{Forcing, Harmonic, Onset};
-use crate::number::{Complex, LANES};
-use gradual::{Gradual, series_of_others, value_and_slope};
+use crate::number::Complex;
+use block::Block;
+use faer::{Mat, c64};
+use follower::Load;
 use parts::{ComplexParts, Parts};
-use slow::SlowLoad;
 
 /// A vector that a derivative of a channel's function moves the modes along.
 #[derive(Debug, Clone)]
@@ -43,19 +42,9 @@ pub(crate) struct Link {
     pub row: Vec<f64>,
 }
 
-/// A harmonic load that resonates with an exponent, and how the modes take part.
-#[derive(Debug, Clone)]
-pub(crate) struct Resonance {
-    pub lambda: Complex<f64>,
-    pub harmonic: usize,
-    pub row: Vec<Complex<f64>>,
-}
-
 /// The response of all modes.
 #[derive(Debug, Clone)]
 pub(crate) struct Response {
-    modes: usize,
-    duration: f64,
     /// Coefficients of each channel.
     pub stride: usize,
     pub links: Vec<Link>,
@@ -64,194 +53,114 @@ pub(crate) struct Response {
     pub omegas: Vec<f64>,
     /// How the modes follow each harmonic.
     pub shapes: Vec<Vec<Complex<f64>>>,
-    pub resonances: Vec<Resonance>,
-    pub gradual: Vec<Gradual>,
-    slow: Vec<SlowLoad>,
+    /// Those of the spectrum's last clusters.
+    pub followers: Vec<Follower>,
 }
 
 impl Response {
-    /// The response of a spectrum whose exponents are known; `impedance` is that of its groups.
+    /// The response of a spectrum whose exponents are known, and the clusters of what follows loads
+    /// from rest; `impedance` is that of its groups.
     pub(crate) fn new(
         forcing: &Forcing,
         spectrum: &Spectrum,
         impedance: Option<&Impedance<'_>>,
         duration: f64,
-    ) -> Result<Self> {
-        let mut response = Self {
-            modes: forcing.forces().len(),
-            duration,
+    ) -> (Self, Vec<Cluster>) {
+        let blocks = Block::coupled(spectrum);
+        let singles = spectrum.singles.iter().enumerate();
+        let response = Self {
             stride: forcing.stride(),
             links: Vec::new(),
             at: spectrum.forced_at,
             omegas: forcing.harmonics().iter().map(|h| h.omega).collect(),
             shapes: Vec::new(),
-            resonances: Vec::new(),
-            gradual: Vec::new(),
-            slow: SlowLoad::list(forcing, spectrum, duration),
+            followers: Vec::new(),
         };
-        let channels = forcing.channels().iter();
-        let directions: Vec<_> = channels.map(|load| load.direction.as_slice()).collect();
-        let modes = response.modes;
-        response.gradual = Gradual::list(&directions, spectrum, modes, duration);
+        let mut making = Making {
+            spectrum,
+            impedance,
+            modes: forcing.forces().len(),
+            duration,
+            has_slow: blocks.iter().any(|block| block.is_slow(duration)),
+            blocks,
+            singles: singles
+                .map(|(index, single)| Block::single(index, &single.motion, duration))
+                .collect(),
+            next: spectrum.forced_at + forcing.harmonics().len(),
+            response,
+            clusters: Vec::new(),
+        };
         for (channel, load) in forcing.channels().iter().enumerate() {
-            response.add_links(channel, &load.direction, spectrum, impedance)?;
+            making.follow_channel(channel, &load.direction);
         }
         for (number, harmonic) in forcing.harmonics().iter().enumerate() {
-            response.add_shape(number, harmonic, spectrum, impedance)?;
+            making.follow_harmonic(number, harmonic);
         }
-        Ok(response)
+        (making.response, making.clusters)
     }
 
     /// Numbers in its arrays.
     pub(crate) fn numbers(&self) -> usize {
-        let modes = self.links.iter().map(|link| link.row.len()).sum::<usize>();
-        modes + 2 * self.shapes.iter().map(Vec::len).sum::<usize>()
+        let links = self.links.iter().map(|link| link.row.len()).sum::<usize>();
+        let followers = self.followers.iter().flat_map(|follower| &follower.shapes);
+        let shapes = self.shapes.iter().chain(followers).map(Vec::len);
+        links + 2 * shapes.sum::<usize>()
     }
 
-    fn add_links(
-        &mut self,
-        channel: usize,
-        direction: &[f64],
-        spectrum: &Spectrum,
-        impedance: Option<&Impedance<'_>>,
-    ) -> Result<()> {
-        let parts = Parts::of(spectrum, direction);
-        let groups = match series_of_others(spectrum, &parts, self.stride, self.duration) {
-            Some(series) => series,
-            None => group_series(&parts.combined, impedance, self.stride)?,
-        };
-        let singles: Vec<_> = (spectrum.singles.iter().zip(&parts.singles))
-            .map(|(single, force)| {
-                single::series(&single.motion, *force, self.stride, self.duration)
-            })
-            .collect();
-        for (number, order) in (-2..self.stride as i32).enumerate() {
-            let zero = vec![0.0; spectrum.combinations];
-            let of_groups = usize::try_from(order).ok().and_then(|m| groups.get(m));
-            let parts = Parts {
-                combined: of_groups.cloned().unwrap_or(zero),
-                singles: singles.iter().map(|series| series[number]).collect(),
-            };
-            let row = parts.modes(spectrum, self.modes);
-            // A reaction resists a load even where nothing moves.
-            let is_resisted = order == 0 && spectrum.held.is_some();
-            if is_resisted || row.iter().any(|x| *x != 0.0) {
-                self.links.push(Link {
-                    channel,
-                    order,
-                    row,
-                });
-            }
-        }
-        Ok(())
+    /// The followers with their clusters, of all those of the spectrum.
+    pub(crate) fn following<'a>(
+        &'a self,
+        clusters: &'a [Cluster],
+    ) -> impl Iterator<Item = (&'a Follower, &'a Cluster)> {
+        let own = clusters.len() - self.followers.len();
+        self.followers.iter().zip(&clusters[own..])
     }
 
-    fn add_shape(
-        &mut self,
-        number: usize,
-        harmonic: &Harmonic,
-        spectrum: &Spectrum,
-        impedance: Option<&Impedance<'_>>,
-    ) -> Result<()> {
-        let forces = ComplexParts::of(spectrum, &harmonic.amplitude);
-        let mut shape = ComplexParts::zero(spectrum);
-        if let Some(impedance) = impedance {
-            shape.combined = self.group_shape(number, &forces.combined, spectrum, impedance)?;
+    /// Sets the columns of loads for a phase.
+    pub(crate) fn set_loads(&self, clusters: &[Cluster], onset: &Onset, to: &mut [ComplexBlock]) {
+        for (follower, cluster) in self.following(clusters) {
+            cluster.put(&follower.start(cluster, onset, self.stride), to);
         }
-        for (index, single) in spectrum.singles.iter().enumerate() {
-            let force = forces.singles[index];
-            let (follows, partner) =
-                single::shape(&single.motion, harmonic.omega, force, self.duration);
-            shape.singles[index] = follows;
-            if let Some(partner) = partner.filter(|_| force.norm2() > 0.0) {
-                let mut alone = ComplexParts::zero(spectrum);
-                alone.singles[index] = partner.weight;
-                let row = alone.modes(spectrum, self.modes);
-                self.resonances.push(Resonance {
-                    lambda: partner.lambda,
-                    harmonic: number,
-                    row,
-                });
-            }
+        for (harmonic, unit) in onset.units.iter().enumerate() {
+            set_entry(to, self.at + harmonic, *unit);
         }
-        self.shapes.push(shape.modes(spectrum, self.modes));
-        Ok(())
     }
 
-    /// How the coupled groups follow a harmonic. By the sum over their exponents
-    /// `shape_j l_j p / (i omega - lambda_j)` where one of them resonates.
-    fn group_shape(
-        &mut self,
-        number: usize,
-        forces: &[Complex<f64>],
-        spectrum: &Spectrum,
-        impedance: &Impedance<'_>,
-    ) -> Result<Vec<Complex<f64>>> {
-        let omega = self.omegas[number];
-        let exponents = 0..spectrum.coupled_width * LANES;
-        let lambda = |j: usize| entry(&spectrum.lambda, j);
-        let none = |z: Complex<f64>| z.norm2() == 0.0;
-        let resonant = |j: &usize| !none(lambda(*j)) && resonates(omega, lambda(*j), self.duration);
-        if !exponents.clone().any(|j| resonant(&j)) {
-            return impedance.harmonic(omega, forces);
-        }
-        if (spectrum.clusters.iter()).any(|c| resonant(&c.at)) {
-            return Err(Error::NoRest);
-        }
-        let turn = Complex::new(0.0, omega);
-        let mut shape = vec![Complex::zero(); spectrum.groups];
-        let alone = |j: &usize| !spectrum.clusters.iter().any(|cluster| cluster.holds(*j));
-        for j in exponents.filter(|j| !none(lambda(*j)) && alone(j)) {
-            // Half of the real force belongs to exp(i omega t), half to its conjugate.
-            let (mut with, mut against) = (Complex::zero(), Complex::zero());
-            for (group, force) in forces.iter().enumerate() {
-                let left = entry(spectrum.left_velocity(group), j).scale(0.5);
-                with += left * *force;
-                against += left.conj() * *force;
-            }
-            let mut row = ComplexParts::zero(spectrum);
-            for (group, shape) in shape.iter_mut().enumerate() {
-                let own = entry(spectrum.shape(group), j);
-                let conjugate = own.conj() * against * (turn - lambda(j).conj()).recip();
-                *shape += conjugate;
-                if resonant(&j) {
-                    row.combined[group] = own * with;
-                } else {
-                    *shape += own * with * (turn - lambda(j)).recip();
-                }
-            }
-            if resonant(&j) {
-                self.resonances.push(Resonance {
-                    lambda: lambda(j),
-                    harmonic: number,
-                    row: row.modes(spectrum, self.modes),
-                });
-            }
-        }
-        for cluster in &spectrum.clusters {
-            cluster.add_harmonic(spectrum, turn, forces, &mut shape);
-        }
-        Ok(shape)
-    }
-
-    /// A resonance with the load's phase and a weight of its own.
-    pub(crate) fn resonant(
+    /// Takes displacement and velocity of all modes at the start of a phase from a state.
+    pub(crate) fn subtract_start(
         &self,
-        resonance: &Resonance,
-        unit: Complex<f64>,
-        weight: Complex<f64>,
-    ) -> Resonant {
-        Resonant {
-            lambda: resonance.lambda,
-            omega: self.omegas[resonance.harmonic],
-            at: self.at + resonance.harmonic,
-            weight: weight * unit,
+        clusters: &[Cluster],
+        onset: &Onset,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) {
+        let units = |harmonic: usize| onset.units[harmonic];
+        self.add_motion(-1.0, &onset.coefficients, units, 0.0, q, v);
+        for (follower, cluster) in self.following(clusters) {
+            let columns = follower.start(cluster, onset, self.stride);
+            follower.add_motion(cluster, &columns, -1.0, q, v);
         }
     }
 
-    /// Adds displacement and velocity of all modes, times `sign`, `t` after the start of a phase:
-    /// `units` are the harmonics' exponentials at the start.
-    pub(crate) fn add_motion(
+    /// Adds displacement and velocity of all modes `t` after the start of a phase: `units` are the
+    /// harmonics' exponentials at the start, and `columns` those of all clusters by now.
+    pub(crate) fn add_to(
+        &self,
+        clusters: &[Cluster],
+        columns: &[ComplexBlock],
+        coefficients: &[f64],
+        units: impl Fn(usize) -> Complex<f64>,
+        t: f64,
+        [q, v]: [&mut [f64]; 2],
+    ) {
+        self.add_motion(1.0, coefficients, units, t, q, v);
+        for (follower, cluster) in self.following(clusters) {
+            follower.add_motion(cluster, &cluster.columns(columns), 1.0, q, v);
+        }
+    }
+
+    /// All but the followers, times `sign`.
+    fn add_motion(
         &self,
         sign: f64,
         coefficients: &[f64],
@@ -269,16 +178,6 @@ impl Response {
                 *v += row * slope;
             }
         }
-        for gradual in &self.gradual {
-            let columns = gradual.series(coefficients, self.stride);
-            for (series, row) in columns.iter().zip(&gradual.rows) {
-                let [value, slope] = value_and_slope(series, t).map(|z| z.scale(sign));
-                for ((q, v), row) in q.iter_mut().zip(v.iter_mut()).zip(row) {
-                    *q = row.add_real_product(value, *q);
-                    *v = row.add_real_product(slope, *v);
-                }
-            }
-        }
         for (number, (shape, omega)) in self.shapes.iter().zip(&self.omegas).enumerate() {
             let turned = units(number) * Complex::new(0.0, omega * t).exp();
             let value = turned.scale(sign);
@@ -288,41 +187,172 @@ impl Response {
                 *v = shape.add_real_product(slope, *v);
             }
         }
-        for resonance in &self.resonances {
-            let unit = units(resonance.harmonic).scale(sign);
-            for (mode, row) in resonance.row.iter().enumerate() {
-                if row.norm2() > 0.0 {
-                    let [x, rate, _] = self.resonant(resonance, unit, *row).values(t);
-                    q[mode] += x;
-                    v[mode] += rate;
-                }
+    }
+}
+
+/// A response that is being made.
+struct Making<'a> {
+    spectrum: &'a Spectrum,
+    impedance: Option<&'a Impedance<'a>>,
+    modes: usize,
+    duration: f64,
+    blocks: Vec<Block>,
+    /// Whether one of them is slow.
+    has_slow: bool,
+    singles: Vec<Block>,
+    /// Column of the next follower.
+    next: usize,
+    response: Response,
+    clusters: Vec<Cluster>,
+}
+
+impl Making<'_> {
+    fn follow_channel(&mut self, channel: usize, direction: &[f64]) {
+        let (spectrum, duration, stride) = (self.spectrum, self.duration, self.response.stride);
+        let parts = Parts::of(spectrum, direction);
+        let force = ComplexParts::of_real(&parts);
+        let load = Load::channel(channel, stride, duration);
+        let blocks = std::mem::take(&mut self.blocks);
+        for block in blocks.iter().filter(|block| block.is_slow(duration)) {
+            self.add_follower(&load, block, &force);
+        }
+        let groups = self.group_series(&blocks, &parts, &force);
+        self.blocks = blocks;
+        let mut singles = Vec::with_capacity(self.singles.len());
+        let own = std::mem::take(&mut self.singles);
+        for ((block, single), force_on_it) in own.iter().zip(&spectrum.singles).zip(&parts.singles)
+        {
+            let follows = single::has_series(&single.motion, duration) || !block.is_slow(duration);
+            singles.push(if follows {
+                single::series(&single.motion, *force_on_it, stride)
+            } else {
+                self.add_follower(&load, block, &force);
+                vec![0.0; stride + 2]
+            });
+        }
+        self.singles = own;
+        self.add_links(channel, &groups, &singles);
+    }
+
+    fn add_links(&mut self, channel: usize, groups: &[Vec<f64>], singles: &[Vec<f64>]) {
+        let spectrum = self.spectrum;
+        for (number, order) in (-2..self.response.stride as i32).enumerate() {
+            let zero = vec![0.0; spectrum.combinations];
+            let of_groups = usize::try_from(order).ok().and_then(|m| groups.get(m));
+            let parts = Parts {
+                combined: of_groups.cloned().unwrap_or(zero),
+                singles: singles.iter().map(|series| series[number]).collect(),
+            };
+            let row = parts.modes(spectrum, self.modes);
+            // A reaction resists a load even where nothing moves.
+            let is_resisted = order == 0 && spectrum.held.is_some();
+            if is_resisted || row.iter().any(|x| *x != 0.0) {
+                self.response.links.push(Link {
+                    channel,
+                    order,
+                    row,
+                });
             }
         }
     }
 
-    /// Puts the loads on slow singles behind what is kept of a phase.
-    pub(crate) fn keep_slow_loads(&self, onset: &Onset, kept: &mut Vec<f64>) {
-        for load in &self.slow {
-            load.keep(onset, self.stride, &self.omegas, kept);
+    /// The series of the coupled groups under a force, from order 0 on, without what is slow. By
+    /// the structure's own matrices where nothing is, else block by block.
+    fn group_series(&self, blocks: &[Block], parts: &Parts, force: &ComplexParts) -> Vec<Vec<f64>> {
+        let stride = self.response.stride;
+        let whole = self.impedance.filter(|_| !self.has_slow);
+        let whole = whole.and_then(|impedance| series(&parts.combined, impedance, stride));
+        whole.unwrap_or_else(|| {
+            let mut series = vec![vec![0.0; self.spectrum.combinations]; stride];
+            for block in blocks.iter().filter(|block| !block.is_slow(self.duration)) {
+                block.add_series(self.spectrum, force, &mut series);
+            }
+            series
+        })
+    }
+
+    fn follow_harmonic(&mut self, number: usize, harmonic: &Harmonic) {
+        let omega = harmonic.omega;
+        let force = ComplexParts::of(self.spectrum, &harmonic.amplitude);
+        let load = Load::harmonic(number, omega);
+        let mut parts = ComplexParts::zero(self.spectrum);
+        let mut shape = vec![Complex::zero(); self.modes];
+        let blocks = std::mem::take(&mut self.blocks);
+        let whole = self.impedance.filter(|_| !self.resonates(&blocks, omega));
+        match whole.and_then(|impedance| impedance.harmonic(omega, &force.combined)) {
+            Some(combined) => parts.combined = combined,
+            None => {
+                for block in &blocks {
+                    self.add_sides(&load, block, omega, &force, &mut shape);
+                }
+            }
+        }
+        self.blocks = blocks;
+        let singles = std::mem::take(&mut self.singles);
+        for (index, (block, single)) in singles.iter().zip(&self.spectrum.singles).enumerate() {
+            if self.resonates(std::slice::from_ref(block), omega) {
+                self.add_sides(&load, block, omega, &force, &mut shape);
+            } else {
+                parts.singles[index] = single::shape(&single.motion, omega, force.singles[index]);
+            }
+        }
+        self.singles = singles;
+        for (to, own) in shape.iter_mut().zip(parts.modes(self.spectrum, self.modes)) {
+            *to += own;
+        }
+        self.response.shapes.push(shape);
+    }
+
+    fn resonates(&self, blocks: &[Block], omega: f64) -> bool {
+        let mut sides = blocks.iter().flat_map(Block::sides);
+        sides.any(|side| side.resonates(omega, self.duration))
+    }
+
+    /// Adds both sides of a block under a harmonic, as followers where they resonate.
+    fn add_sides(
+        &mut self,
+        load: &Load,
+        block: &Block,
+        omega: f64,
+        force: &ComplexParts,
+        shape: &mut [Complex<f64>],
+    ) {
+        for side in block.sides() {
+            if side.resonates(omega, self.duration) {
+                let gains = side.gains(self.spectrum, force);
+                let shapes = side.shapes(self.spectrum, self.modes);
+                self.add(load, &side.generator(), &gains, shapes);
+            } else {
+                side.add_harmonic(self.spectrum, omega, force, shape);
+            }
         }
     }
 
-    /// The polynomial of the load on a slow single.
-    pub(crate) fn slow_load<'a>(&self, single: usize, kept: &'a [f64]) -> &'a [f64] {
-        let load = self.slow.iter().find(|load| load.single == single);
-        load.map_or(&[], |load| load.coefficients(kept))
+    fn add_follower(&mut self, load: &Load, block: &Block, force: &ComplexParts) {
+        let gains = block.gains(self.spectrum, force);
+        let shapes = block.shapes(self.spectrum, self.modes);
+        self.add(load, &block.generator, &gains, shapes);
+    }
+
+    fn add(
+        &mut self,
+        load: &Load,
+        generator: &Mat<c64>,
+        gains: &[Complex<f64>],
+        shapes: Vec<Vec<Complex<f64>>>,
+    ) {
+        let follower = Follower::new(load, generator, gains, shapes, self.next, self.duration);
+        if let Some((follower, cluster)) = follower {
+            self.next += cluster.size;
+            self.clusters.push(cluster);
+            self.response.followers.push(follower);
+        }
     }
 }
 
-/// The series of the coupled groups under a force, from order 0 on.
-fn group_series(
-    force: &[f64],
-    impedance: Option<&Impedance<'_>>,
-    orders: usize,
-) -> Result<Vec<Vec<f64>>> {
-    let Some(impedance) = impedance.filter(|_| force.iter().any(|p| *p != 0.0)) else {
-        return Ok(Vec::new());
-    };
+/// The series of coupled groups under a force, from order 0 on; `None` where some motion has no
+/// stiffness.
+fn series(force: &[f64], impedance: &Impedance<'_>, orders: usize) -> Option<Vec<Vec<f64>>> {
     let mut series: Vec<Vec<f64>> = Vec::with_capacity(orders);
     for order in 0..orders {
         let next = match order {
@@ -338,5 +368,5 @@ fn group_series(
         };
         series.push(next);
     }
-    Ok(series)
+    Some(series)
 }

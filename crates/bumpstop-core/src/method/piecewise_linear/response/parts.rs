@@ -57,6 +57,14 @@ impl ComplexParts {
         }
     }
 
+    pub(super) fn of_real(parts: &Parts) -> Self {
+        let complex = |numbers: &[f64]| numbers.iter().map(|x| Complex::real(*x)).collect();
+        Self {
+            combined: complex(&parts.combined),
+            singles: complex(&parts.singles),
+        }
+    }
+
     pub(super) fn of(spectrum: &Spectrum, modal: &[Complex<f64>]) -> Self {
         let part = |of: fn(&Complex<f64>) -> f64| {
             let modal: Vec<f64> = modal.iter().map(of).collect();

@@ -31,8 +31,6 @@ pub(super) struct Equations {
     classes: Vec<Class>,
     /// What reactions can push, where coordinates are held: the rows of their directions.
     held: Option<Mat<f64>>,
-    /// Residual of each motion that resonates with a load, and its growth rate.
-    resonances: Vec<(f64, f64)>,
     clusters: Vec<ClusterResidual>,
 }
 
@@ -59,10 +57,10 @@ impl Equations {
             solved: &solved,
             held: held.as_ref(),
         };
+        let clusters = residual.clusters(spectrum, &views);
         Ok(Self {
-            classes: residual.classes(problem, spectrum, &views),
-            resonances: residual.resonances(spectrum),
-            clusters: residual.clusters(spectrum, &views),
+            classes: residual.classes(problem, spectrum, &views, &clusters),
+            clusters,
             stiffness: (0..n).map(|k| eigen.S()[k]).collect(),
             directions: eigen.U().to_owned(),
             pumping: dampers.iter().fold(0.0f64, |most, c| most.max(-c)),
@@ -98,20 +96,27 @@ impl Equations {
         squares.sqrt() / softest
     }
 
-    /// Adds what the columns of clusters that stay as they are leave of a mode's equation.
-    pub(super) fn add_staying(
+    /// Adds what the polynomials that drive clusters leave of a mode's equation, at a power of the
+    /// time.
+    pub(super) fn add_driven(
         &self,
         record: &PhaseRecord,
         phase: Phase,
-        mode: usize,
+        [mode, power]: [usize; 2],
         sum: &mut Sum,
     ) {
         let amplitudes = record.phases.amplitudes(phase);
         let clusters = &record.phases.spectra[phase.spectrum].clusters;
         for (cluster, residual) in clusters.iter().zip(&self.clusters) {
-            let z = cluster.columns(amplitudes);
+            if residual.turns || cluster.drives() == 0 {
+                continue;
+            }
+            let mut z = cluster.columns(amplitudes);
+            for n in 1..=power {
+                z = cluster.rate(&z).map(|rate| rate.scale(1.0 / n as f64));
+            }
             let drive = &z[cluster.size - cluster.drives()..cluster.size];
-            for (factor, z) in residual.staying[mode].iter().zip(drive) {
+            for (factor, z) in residual.driving[mode].iter().zip(drive) {
                 sum.add(factor.real_product(*z));
             }
         }
@@ -145,10 +150,6 @@ impl Equations {
             let size = z.iter().map(|z| z.norm2()).sum::<f64>().sqrt();
             let growth = cluster.growth().max(0.0);
             total += residual.moving * size * lasting(growth, length);
-        }
-        for (size, growth) in &self.resonances {
-            // What grows from rest under a load of size one has at most reached t by then.
-            total += size * length * lasting(*growth, length);
         }
         total
     }

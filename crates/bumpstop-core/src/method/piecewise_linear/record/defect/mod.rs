@@ -113,9 +113,7 @@ impl<'a, L: Law> Defect<'a, L> {
                 let second = ((power + 1) * (power + 2)) as f64;
                 sum.add(second * at(&motion, mode, power + 2));
                 sum.add(-at(&force, mode, power));
-                if power == 0 {
-                    equations.add_staying(self.record, phase, mode, &mut sum);
-                }
+                equations.add_driven(self.record, phase, [mode, power], &mut sum);
                 (left[mode], noise[mode]) = (sum.value, rounding(2 * n) * sum.size);
             }
             equations.leave_out_reactions(&mut left);

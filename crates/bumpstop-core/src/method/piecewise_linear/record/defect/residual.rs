@@ -4,6 +4,7 @@ use super::equations::leave_out;
 use crate::law::Law;
 use crate::method::piecewise_linear::cluster::{Cluster, Columns, NOTHING};
 use crate::method::piecewise_linear::coupled::Coupled;
+use crate::method::piecewise_linear::response::Leader;
 use crate::method::piecewise_linear::rows::entry;
 use crate::method::piecewise_linear::spectrum::Spectrum;
 use crate::method::piecewise_linear::view::View;
@@ -18,10 +19,12 @@ pub(super) fn rounding(terms: usize) -> f64 {
 
 /// What a cluster leaves of the equations.
 pub(super) struct ClusterResidual {
-    /// Of its columns that move, a bound of the norm.
+    /// Of its own columns, a bound of the norm.
     pub moving: f64,
-    /// Of each mode, and of each column that stays as it is.
-    pub staying: Vec<Vec<Complex<f64>>>,
+    /// Of each mode, and of each column that drives it.
+    pub driving: Vec<Vec<Complex<f64>>>,
+    /// Whether a harmonic load drives it.
+    pub turns: bool,
 }
 
 /// Exponents that are equal, and the residual of each at unit amplitude.
@@ -74,6 +77,7 @@ impl Residual<'_> {
         problem: &Problem<L>,
         spectrum: &Spectrum,
         views: &[View],
+        clusters: &[ClusterResidual],
     ) -> Vec<Class> {
         let mut classes: Vec<Class> = Vec::new();
         for exponent in 0..spectrum.lambda.len() * LANES {
@@ -89,7 +93,7 @@ impl Residual<'_> {
             }
             let mut residual = self.of_exponent(lambda, &shape);
             if let Some(harmonic) = harmonic {
-                self.take_load(problem, spectrum, harmonic, &mut residual);
+                self.take_load(problem, spectrum, clusters, harmonic, &mut residual);
             }
             let Rounded { vector, rounding } = self.without_reactions(residual);
             let class = match classes.iter_mut().find(|class| class.exponent == lambda) {
@@ -145,31 +149,31 @@ impl Residual<'_> {
         }
     }
 
-    /// Takes a harmonic load, and what drives the motions that resonate with it, from the
-    /// residual of its exponent.
+    /// Takes a harmonic load from the residual of its exponent, and adds what drives the clusters
+    /// that follow it.
     fn take_load<L: Law>(
         &self,
         problem: &Problem<L>,
         spectrum: &Spectrum,
+        clusters: &[ClusterResidual],
         number: usize,
         residual: &mut Rounded,
     ) {
         let harmonic = &problem.forcing.harmonics()[number];
-        let turn = Complex::new(0.0, harmonic.omega);
         let (mut size, modes) = (0.0, residual.vector.len());
-        let resonances = spectrum.response.iter().flat_map(|r| &r.resonances);
-        let resonances: Vec<_> = resonances.filter(|r| r.harmonic == number).collect();
+        let followers = spectrum.response.iter().flat_map(|r| &r.followers);
+        let first = clusters.len() - followers.clone().count();
+        let following: Vec<_> = (followers.zip(&clusters[first..]))
+            .filter(|(follower, _)| follower.leader == Leader::Harmonic(number))
+            .collect();
         for i in (0..modes).filter(|&i| !self.solved[i]) {
             let mut add = |term: Complex<f64>| {
                 residual.vector[i] += term;
                 size += term.norm();
             };
             add(harmonic.amplitude[i].scale(-1.0));
-            for resonance in &resonances {
-                add(resonance.row[i] * (resonance.lambda + turn));
-                for (k, row) in resonance.row.iter().enumerate() {
-                    add(row.scale(self.coupled.damping[(i, k)]));
-                }
+            for (follower, cluster) in &following {
+                add(cluster.driving[i][0].scale(follower.size));
             }
         }
         residual.rounding += rounding(2 * modes) * size;
@@ -196,13 +200,18 @@ impl Residual<'_> {
             }
             residuals.push(self.of_cluster(cluster, &seen));
         }
+        let followers = spectrum.response.iter().flat_map(|r| &r.followers);
+        let first = residuals.len() - followers.clone().count();
+        for (follower, residual) in followers.zip(&mut residuals[first..]) {
+            residual.turns = matches!(follower.leader, Leader::Harmonic(_));
+        }
         residuals
     }
 
     fn of_cluster(&self, cluster: &Cluster, seen: &[[Columns; 3]]) -> ClusterResidual {
         let moving = cluster.size - cluster.drives();
         let mut squares = 0.0;
-        let mut staying = vec![vec![Complex::zero(); cluster.drives()]; seen.len()];
+        let mut driving = vec![vec![Complex::zero(); cluster.drives()]; seen.len()];
         for column in 0..cluster.size {
             let mut vector = vec![Complex::zero(); seen.len()];
             let mut noises = 0.0;
@@ -227,7 +236,7 @@ impl Residual<'_> {
             match column.checked_sub(moving) {
                 // Its rounding is that of the force it stands for.
                 Some(drive) => {
-                    for (stays, total) in staying.iter_mut().zip(column_left.vector) {
+                    for (stays, total) in driving.iter_mut().zip(column_left.vector) {
                         stays[drive] = total;
                     }
                 }
@@ -236,17 +245,8 @@ impl Residual<'_> {
         }
         ClusterResidual {
             moving: squares.sqrt(),
-            staying,
+            driving,
+            turns: false,
         }
-    }
-
-    /// Residuals of what resonates with a load, each with its growth rate.
-    pub(super) fn resonances(&self, spectrum: &Spectrum) -> Vec<(f64, f64)> {
-        let resonances = spectrum.response.iter().flat_map(|r| &r.resonances);
-        let each = resonances.map(|resonance| {
-            let residual = self.of_exponent(resonance.lambda, &resonance.row);
-            (self.without_reactions(residual).norm(), resonance.lambda.re)
-        });
-        each.collect()
     }
 }
