@@ -101,6 +101,18 @@ class Forcing:
         frequency in rad/s, amplitudes of cosine and sine), tables (direction, times, values,
         whether the values at their ends hold beyond them, instead of zero).
         """
+    def with_motions(
+        self,
+        polynomials: list[tuple[int, Array]],
+        harmonics: list[tuple[int, float, float, float]],
+        tables: list[tuple[int, Array, Array, bool]],
+    ) -> Forcing:
+        """Return the same with obstacles that move, in m, each by the number of its law.
+
+        Polynomials are (law, coefficients), harmonics (law, angular frequency in rad/s, amplitudes
+        of cosine and sine), tables (law, times, values, whether the values at their ends hold
+        beyond them).
+        """
     def at(self, time: float) -> Array:
         """Modal forces (N,) at a time in s; just after it where they jump."""
 

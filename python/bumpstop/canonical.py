@@ -9,7 +9,10 @@ import numpy as np
 from bumpstop import _core
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from bumpstop.arguments import FloatArray
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
 
@@ -55,7 +58,12 @@ def canonical_form(problem: Problem) -> CanonicalForm:
         if check is not None:
             check(basis, displacement)
     system = _core.System(basis.omega2, *_velocity_terms(basis), basis.circulatory)
-    return CanonicalForm(system, laws, _forcing(problem), displacement, velocity)
+    forcing = _forcing(problem)
+    # Few obstacles move: what follows them is imported where one does.
+    moved = [(law, getattr(stop, "functions", ())) for law, stop in enumerate(problem.laws)]
+    if any(functions for _, functions in moved):
+        forcing = _with_motions(forcing, moved)
+    return CanonicalForm(system, laws, forcing, displacement, velocity)
 
 
 def _forcing(problem: Problem) -> _core.Forcing:
@@ -84,6 +92,27 @@ def _forcing(problem: Problem) -> _core.Forcing:
                 times, values = np.asarray(function.times), np.asarray(function.values)
                 tables.append((force, times, values, function.beyond == "hold"))
     return _core.Forcing(constant, polynomials, harmonics, tables)
+
+
+def _with_motions(
+    forcing: _core.Forcing, moved: list[tuple[int, Sequence[TimeFunction]]]
+) -> _core.Forcing:
+    """Return loads with the motions of obstacles, by the numbers of their laws."""
+    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
+
+    polynomials, harmonics, tables = [], [], []
+    for law, function in ((law, function) for law, functions in moved for function in functions):
+        match function:
+            case Polynomial():
+                polynomials.append((law, np.array(function.coefficients)))
+            case Harmonic():
+                omega = 2.0 * np.pi * function.frequency
+                harmonics.append((law, omega, function.cosine, function.sine))
+            case TimeTable():
+                times, values = np.asarray(function.times), np.asarray(function.values)
+                # One that says nothing covers the run: its ends are no jumps.
+                tables.append((law, times, values, function.beyond != "zero"))
+    return forcing.with_motions(polynomials, harmonics, tables)
 
 
 def _velocity_terms(basis: ModalBasis) -> tuple[FloatArray, FloatArray | None]:

@@ -195,6 +195,12 @@ class Problem:
         for law in self.laws:
             with _at(f"{law.table}.{law.name}"):
                 law.core(self.basis)
+                # Few laws have it: an obstacle that moves.
+                motion = getattr(law, "functions", ())
+                if motion:
+                    from bumpstop.loads.time import check_span
+
+                    check_span(motion, self.duration, "motion")
         for load in self.loads:
             with _at(f"loads.{load.name}"):
                 load.modal_force(self.basis)

@@ -67,6 +67,7 @@ ENERGIES = {
     "dissipated_stops": Quantity("J", "energy dissipated by the stops"),
     "load_work": Quantity("J", "work of the loads"),
     "circulatory_work": Quantity("J", "work of circulatory forces"),
+    "obstacle_work": Quantity("J", "work of obstacles that move"),
     "total": Quantity("J", "kinetic, elastic, stored and dissipated energy together"),
     "total_initial": Quantity("J", "kinetic, elastic and stored energy at t = 0"),
     "residual": Quantity("J", "total less its initial value and the work put in"),

@@ -344,9 +344,10 @@ class Response:
         ``kinetic``, ``elastic`` (of the linear structure), ``stored`` (in the stops, and
         ``stored_in_stop`` for each), ``dissipated_damping``, ``dissipated_stops`` (and
         ``dissipated_in_stop``), ``load_work``, ``circulatory_work`` (of the forces of a
-        circulatory matrix); ``total`` is what is there or was dissipated, ``total_initial``
-        what was there at t = 0, and ``residual = total - total_initial - load_work -
-        circulatory_work``. Every term is integrated from its own power.
+        circulatory matrix), ``obstacle_work`` (of obstacles that move); ``total`` is what is
+        there or was dissipated, ``total_initial`` what was there at t = 0, and ``residual = total
+        - total_initial - load_work - circulatory_work - obstacle_work``. Every term is integrated
+        from its own power.
         """
         from bumpstop.post.energy import energy_dataset
 

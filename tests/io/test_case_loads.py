@@ -73,6 +73,28 @@ def test_the_supports_move_by_a_file(tmp_path: Path) -> None:
     assert abs(found).max() > 0.0
 
 
+STOP = '[stops.wall]\nnode = "B"\nnormal = [-1, 0, 0]\ngap = 0.1\nstiffness = 1e4\n'
+
+
+def test_an_obstacle_moves(tmp_path: Path) -> None:
+    problem = case(
+        tmp_path,
+        STOP + 'motion = { travel = "20 cm", polynomial = [0, 1], '
+        'harmonics = [{ frequency = "3 Hz", sine = 0.5 }], '
+        "table = { times = [0, 2], values = [1, 3] } }\n",
+    )
+    (wall,) = problem.laws
+    assert isinstance(wall, bs.Stop)
+    times = np.array([0.1, 1.7])
+    moved = sum(function.at(times) for function in wall.functions)
+    expected = 0.2 * (times + 0.5 * np.sin(6.0 * np.pi * times) + 1.0 + times)
+    np.testing.assert_allclose(moved, expected, rtol=1e-14)
+    response = bs.simulate(problem)
+    at_rest = 0.1 - 0.2 + 0.0 * times
+    gap = response.at(np.array([0.0])).gap("wall")
+    np.testing.assert_allclose(gap, at_rest[:1], rtol=0, atol=1e-15)
+
+
 LOAD = '[loads.push]\ntype = "force"\nnode = "B"\nforce = [1, 0, 0]\n'
 
 
@@ -112,6 +134,23 @@ LOAD = '[loads.push]\ntype = "force"\nnode = "B"\nforce = [1, 0, 0]\n'
             "is in the file",
         ),
         (LOAD + "table = { step = 1, times = [0] }\n", "loads.push.table.step", "is for a file"),
+        (STOP + "motion = {}\n", "stops.wall.motion", "needs harmonics, a polynomial or a table"),
+        (
+            STOP + "motion = { table = { times = [0, 1], values = [0, 0] } }\n",
+            "stops.wall.motion",
+            "does not cover the run",
+        ),
+        (
+            STOP + 'motion = { table = { times = [0, 1], values = [0, 1], beyond = "zero" } }\n',
+            "stops.wall.motion",
+            "must not jump",
+        ),
+        (
+            STOP.replace("stiffness = 1e4", "restitution = 0.5")
+            + "motion = { polynomial = [1] }\n",
+            "stops.wall.motion",
+            "is of no use to a rigid stop",
+        ),
         (
             "[base_motion]\nacceleration = [1, 0, 0]\ntable = { times = [0], values = [1] }\n",
             "base_motion.table",

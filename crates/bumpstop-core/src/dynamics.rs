@@ -1,6 +1,6 @@
 //! Accelerations and reactions at one instant, from the equation of motion.
 
-use crate::law::{Law, State, project};
+use crate::law::{Law, State};
 use crate::problem::Problem;
 use crate::rigid::Directions;
 
@@ -19,8 +19,9 @@ impl Moment<'_> {
         let (q, v) = (self.displacement, self.velocity);
         let mut forces = vec![0.0; q.len()];
         problem.forcing.at(self.time, &mut forces);
-        for (law, state) in problem.laws.iter().zip(self.states) {
-            let force = law.force(*state, &project(law, q), &project(law, v));
+        for (index, (law, state)) in problem.laws.iter().zip(self.states).enumerate() {
+            let [position, rate] = problem.local(index, self.time, q, v);
+            let force = law.force(*state, &position, &rate);
             for (row, f) in law.rows().iter().zip(force) {
                 for (total, r) in forces.iter_mut().zip(row) {
                     *total += r * f;

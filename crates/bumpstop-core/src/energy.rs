@@ -21,6 +21,8 @@ pub struct Ledger {
     pub load_work: f64,
     /// Work of the forces of a circulatory matrix since t = 0.
     pub circulatory_work: f64,
+    /// Work of the obstacles that move since t = 0.
+    pub obstacle_work: f64,
 }
 
 impl Ledger {
@@ -34,6 +36,7 @@ impl Ledger {
         self.held() + self.modal_dissipation + self.law_dissipated.iter().sum::<f64>()
             - self.load_work
             - self.circulatory_work
+            - self.obstacle_work
     }
 
     /// Size of the largest term, the scale of the residual.
@@ -46,6 +49,7 @@ impl Ledger {
             self.modal_dissipation,
             self.load_work,
             self.circulatory_work,
+            self.obstacle_work,
         ]
         .iter()
         .fold(laws, |m, e| m.max(e.abs()))

@@ -145,6 +145,24 @@ pub enum Error {
         /// The method.
         method: &'static str,
     },
+    /// An obstacle's motion jumps.
+    #[error("an obstacle cannot jump: its motion has two values at t = {time:e} s")]
+    Jump {
+        /// Instant, in s.
+        time: f64,
+    },
+    /// What moves is not an obstacle that a motion can be given to.
+    #[error("law {law} (counted from 0) cannot be moved: there is none, or its stop is rigid")]
+    Immovable {
+        /// The law.
+        law: usize,
+    },
+    /// A method that takes obstacles where they are was given one that moves.
+    #[error("the {method} method does not take obstacles that move; the exact method does")]
+    MovingObstacles {
+        /// The method.
+        method: &'static str,
+    },
     /// A fixed step would be unstable.
     #[error("a step of {dt:e} s is above the stability limit of {method}, {limit:e} s")]
     Unstable {

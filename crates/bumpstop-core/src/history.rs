@@ -196,7 +196,7 @@ impl<L: Law> History<L> {
         let which = &self.problem.laws[law];
         let mut columns = [const { Vec::new() }; 3];
         self.visit(times, |time, q, v, states| {
-            let (position, rate) = (project(which, q), project(which, v));
+            let [position, rate] = self.problem.local(law, time, q, v);
             let (distance, speed) = which.distance(&position, &rate);
             columns[0].push(distance);
             columns[1].push(speed);
@@ -238,14 +238,14 @@ impl<L: Law> History<L> {
         v: &[f64],
         states: &[State],
     ) -> Local<f64> {
-        let which = &self.problem.laws[law];
         let moment = Moment {
             time,
             displacement: q,
             velocity: v,
             states,
         };
-        let mut force = which.force(states[law], &project(which, q), &project(which, v));
+        let [position, rate] = self.problem.local(law, time, q, v);
+        let mut force = self.problem.laws[law].force(states[law], &position, &rate);
         if let Some(reaction) = moment.reaction(&self.problem, law) {
             force[0] = reaction;
         }
@@ -343,6 +343,7 @@ fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger
             load_work: problem.forcing.work(record.displacement(0), q),
             modal_dissipation: 0.0,
             circulatory_work: 0.0,
+            obstacle_work: 0.0,
         };
         if let (Some(previous), Some(last)) = (&before, ledgers.last()) {
             let half = 0.5 * record.dt;
@@ -432,5 +433,6 @@ fn interpolate(ledgers: &[Ledger], position: f64) -> Ledger {
         law_dissipated: each(&a.law_dissipated, &b.law_dissipated),
         load_work: mix(a.load_work, b.load_work),
         circulatory_work: mix(a.circulatory_work, b.circulatory_work),
+        obstacle_work: mix(a.obstacle_work, b.obstacle_work),
     }
 }

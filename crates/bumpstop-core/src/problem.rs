@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, check_finite, check_length};
 use crate::forcing::Forcing;
-use crate::law::Law;
+use crate::law::{Law, Local, project};
 use crate::system::ModalSystem;
 
 /// All that a method needs.
@@ -51,6 +51,10 @@ impl<L: Law> Problem<L> {
         for row in laws.iter().flat_map(Law::rows) {
             check_length("a law's row", row, modes)?;
         }
+        let can_move = |law: &usize| laws.get(*law).is_some_and(|l| l.restitution().is_none());
+        if let Some(law) = forcing.moved().find(|law| !can_move(law)) {
+            return Err(Error::Immovable { law });
+        }
         Ok(Self {
             system,
             laws,
@@ -59,5 +63,23 @@ impl<L: Law> Problem<L> {
             velocity,
             duration,
         })
+    }
+
+    /// Local position and velocity of a law at a time, measured from its obstacle.
+    pub(crate) fn local(
+        &self,
+        law: usize,
+        time: f64,
+        displacement: &[f64],
+        velocity: &[f64],
+    ) -> [Local<f64>; 2] {
+        let which = &self.laws[law];
+        let mut local = [project(which, displacement), project(which, velocity)];
+        if self.forcing.varies() {
+            let [moved, rate, ..] = self.forcing.motion(law, time);
+            local[0][0] -= moved;
+            local[1][0] -= rate;
+        }
+        local
     }
 }

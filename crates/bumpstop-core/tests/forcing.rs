@@ -201,10 +201,11 @@ fn check(case: &Case, tolerance: f64) -> Result<(), TestCaseError> {
     let fractions = [0.0, 0.13, 0.5, 0.77, 1.0];
     let times = fractions.map(|part| part * case.duration);
     let expected: Vec<_> = times.iter().map(|t| case.expected(*t)).collect();
-    // A closed stop is measured from its obstacle, which is DEPTH away: what a soft mode is held by
-    // is the small difference of the stop's force and the load that presses it.
+    // A closed stop is measured from its obstacle, which is DEPTH away: a soft mode is pushed by the
+    // small difference of the stop's force, up to 60 DEPTH, and the load that presses it. Rounding
+    // of these two, in a second or two, moves it by some 1e-14 of their 6e4 N.
     let moved = if case.stop.is_some() {
-        1e-2 * DEPTH
+        3e-2 * DEPTH
     } else {
         MOVED
     };

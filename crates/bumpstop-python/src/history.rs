@@ -211,6 +211,7 @@ impl History {
         dict.set_item("modal_dissipation", column(|l| l.modal_dissipation))?;
         dict.set_item("load_work", column(|l| l.load_work))?;
         dict.set_item("circulatory_work", column(|l| l.circulatory_work))?;
+        dict.set_item("obstacle_work", column(|l| l.obstacle_work))?;
         let table = |term: fn(&Ledger) -> &[f64]| {
             Array2::from_shape_fn((laws, ledgers.len()), |(law, t)| term(&ledgers[t])[law])
                 .into_pyarray(py)

@@ -1,6 +1,7 @@
 //! What a problem is made of.
 
 use crate::core_error;
+use bumpstop_core::error::Result;
 use bumpstop_core::forcing::{self, Beyond, Table};
 use bumpstop_core::{law, system};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
@@ -63,9 +64,33 @@ impl Forcing {
                 forcing = forcing.with_harmonic(*omega, &values(cosine), &values(sine))?;
             }
             for (direction, times, knots, holds) in &tables {
-                let beyond = if *holds { Beyond::Hold } else { Beyond::Zero };
-                let table = Table::new(values(times), values(knots), beyond)?;
-                forcing = forcing.with_table(values(direction), table)?;
+                forcing = forcing.with_table(values(direction), table(times, knots, *holds)?)?;
+            }
+            Ok(forcing)
+        };
+        build().map(Self).map_err(core_error)
+    }
+
+    /// The same with obstacles that move, each by the number of its law: polynomials are (law,
+    /// coefficients), harmonics (law, omega, cosine, sine), tables (law, times, values, whether the
+    /// values at its ends hold beyond them).
+    fn with_motions(
+        &self,
+        polynomials: Vec<(usize, Column<'_>)>,
+        harmonics: Vec<(usize, f64, f64, f64)>,
+        tables: Vec<(usize, Column<'_>, Column<'_>, bool)>,
+    ) -> PyResult<Self> {
+        let build = || {
+            let mut forcing = self.0.clone();
+            for (law, coefficients) in &polynomials {
+                forcing = forcing.with_polynomial_motion(*law, values(coefficients))?;
+            }
+            for (law, omega, cosine, sine) in harmonics {
+                forcing = forcing.with_harmonic_motion(law, omega, cosine, sine)?;
+            }
+            for (law, times, knots, holds) in &tables {
+                let table = table(times, knots, *holds)?;
+                forcing = forcing.with_table_motion(*law, table)?;
             }
             Ok(forcing)
         };
@@ -78,6 +103,11 @@ impl Forcing {
         self.0.at(time, &mut forces);
         forces.into_pyarray(py)
     }
+}
+
+fn table(times: &Column<'_>, knots: &Column<'_>, holds: bool) -> Result<Table> {
+    let beyond = if holds { Beyond::Hold } else { Beyond::Zero };
+    Table::new(values(times), values(knots), beyond)
 }
 
 /// A unilateral spring and damper at distance `d = gap + row . q`.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ from bumpstop.laws.coordinate import Coordinate, Terms, unit
 if TYPE_CHECKING:
     from bumpstop import _core
     from bumpstop.laws.friction import Friction
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["Stop"]
@@ -27,6 +28,9 @@ class Stop(Contact):
     and of the other one, which is zero for a fixed obstacle, the stop pushes along its normal
     with ``F = max(0, -stiffness d - damping d')`` while d < 0, and not at all while d > 0. It
     never pulls: with damping the force vanishes before the gap opens.
+
+    An obstacle may move: by ``motion`` along its normal, towards the structure, so that ``d = gap
+    + normal . u - motion(t)``.
 
     With friction a spring and a slider act along the obstacle, on the motion x: while the slider
     sticks at its anchor, which is where contact began, with the force ``-tangential_stiffness
@@ -56,6 +60,9 @@ class Stop(Contact):
         Contact damping in N s/m.
     obstacle
         Shape of the obstacle: ``"plane"``.
+    motion
+        How far the obstacle moves along its normal, in m over time: a `Harmonic`, a `Polynomial`,
+        a `TimeTable` without jumps, or a list of them, which add up.
     friction
         Coefficient of friction, or ``{"static": ..., "dynamic": ...}``.
     sliding
@@ -85,6 +92,7 @@ class Stop(Contact):
     _: KW_ONLY
     stiffness: float
     damping: float = 0.0
+    motion: TimeFunction | Sequence[TimeFunction] = ()
     friction: float | Mapping[str, float] | Friction | None = None
     sliding: Vector | Terms | None = None
     tangential_stiffness: float | None = None
@@ -97,6 +105,16 @@ class Stop(Contact):
         damping = not_negative("tangential_damping", self.tangential_damping)
         object.__setattr__(self, "tangential_damping", damping)
         self._check_friction()
+        if self.motion != ():
+            from bumpstop.loads.time import check_steady, time_functions
+
+            object.__setattr__(self, "motion", time_functions(self.motion, "motion"))
+            check_steady(self.functions, "motion")
+
+    @property
+    def functions(self) -> tuple[TimeFunction, ...]:
+        """The functions of time whose sum moves the obstacle."""
+        return self.motion  # type: ignore[return-value]  # a tuple once it has been checked
 
     def sliding_row(self, basis: ModalBasis) -> FloatArray | None:
         """Return the motion along the obstacle, (N,); None without friction.

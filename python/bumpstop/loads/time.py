@@ -12,7 +12,16 @@ import numpy as np
 from bumpstop.arguments import FloatArray, finite, one_of, positive, series
 from bumpstop.errors import InputError
 
-__all__ = ["Harmonic", "Polynomial", "TimeFunction", "TimeTable", "check_span", "time_functions"]
+__all__ = [
+    "Harmonic",
+    "Polynomial",
+    "TimeFunction",
+    "TimeTable",
+    "check_span",
+    "check_steady",
+    "scaled",
+    "time_functions",
+]
 
 HIGHEST_DEGREE = 5
 """Of a polynomial that the core follows."""
@@ -177,7 +186,7 @@ class TimeTable:
 TimeFunction: TypeAlias = Harmonic | Polynomial | TimeTable
 
 
-def time_functions(value: object) -> tuple[TimeFunction, ...]:
+def time_functions(value: object, key: str = "time") -> tuple[TimeFunction, ...]:
     """Return the functions that a load is multiplied by the sum of; none where it is constant.
 
     Raises
@@ -191,13 +200,13 @@ def time_functions(value: object) -> tuple[TimeFunction, ...]:
     for each in given:
         if not isinstance(each, Harmonic | Polynomial | TimeTable):
             what = "must be a Harmonic, a Polynomial, a TimeTable or a list of them"
-            raise InputError(what, key="time", value=each)
+            raise InputError(what, key=key, value=each)
     if not given:
-        raise InputError("must not be empty", key="time", value=value, hint="leave it out")
+        raise InputError("must not be empty", key=key, value=value, hint="leave it out")
     return tuple(given)
 
 
-def check_span(functions: Sequence[TimeFunction], duration: float) -> None:
+def check_span(functions: Sequence[TimeFunction], duration: float, key: str = "time") -> None:
     """Refuse a table that does not cover the run and does not say what it is beyond its ends.
 
     Raises
@@ -213,7 +222,45 @@ def check_span(functions: Sequence[TimeFunction], duration: float) -> None:
             what = "does not cover the run, and does not say what it is beyond its ends"
             value = f"{first:g} s to {last:g} s, run 0 to {duration:g} s"
             hint = 'beyond = "zero" or "hold"'
-            raise InputError(what, key="time", value=value, hint=hint)
+            raise InputError(what, key=key, value=value, hint=hint)
+
+
+def check_steady(functions: Sequence[TimeFunction], key: str) -> None:
+    """Refuse a table that jumps, within its times or at its ends.
+
+    Raises
+    ------
+    InputError
+        If there is such a table.
+    """
+    for table in functions:
+        if not isinstance(table, TimeTable):
+            continue
+        times, values = np.asarray(table.times), np.asarray(table.values)
+        jumps = times[:-1][(np.diff(times) == 0.0) & (np.diff(values) != 0.0)].tolist()
+        if table.beyond == "zero":
+            jumps += [float(times[end]) for end in (0, -1) if values[end] != 0.0]
+        if jumps:
+            what = "must not jump: an obstacle moves at a finite speed"
+            hint = 'leave a little time between its values; beyond = "hold" keeps the last one'
+            raise InputError(what, key=key, value=f"jump at {jumps[0]:g} s", hint=hint)
+
+
+def scaled(function: TimeFunction, factor: float) -> TimeFunction:
+    """Return a function of time times a factor.
+
+    Examples
+    --------
+    >>> scaled(Polynomial([0.0, 2.0]), 0.5)
+    Polynomial(coefficients=(0.0, 1.0))
+    """
+    if isinstance(function, Harmonic):
+        cosine, sine = factor * function.cosine, factor * function.sine
+        return Harmonic(function.frequency, cosine=cosine, sine=sine)
+    if isinstance(function, Polynomial):
+        return Polynomial([factor * c for c in function.coefficients])
+    values = factor * np.asarray(function.values)
+    return TimeTable(function.times, values, beyond=function.beyond)
 
 
 def _column(key: str, value: object) -> FloatArray:

@@ -36,8 +36,8 @@ def ledger(response: Response, times: FloatArray) -> Ledger:
 
     The core integrates each term from its own power; this only adds them up:
     ``total = kinetic + elastic + stored + dissipated_damping + dissipated_stops``, which
-    without rounding equals ``total_initial + load_work + circulatory_work``; ``residual`` is
-    what it misses.
+    without rounding equals ``total_initial + load_work + circulatory_work + obstacle_work``;
+    ``residual`` is what it misses.
 
     Parameters
     ----------
@@ -52,6 +52,7 @@ def ledger(response: Response, times: FloatArray) -> Ledger:
     dissipated = core["law_dissipated"].sum(axis=0)
     present = core["kinetic"] + core["elastic"] + stored
     total = present + core["modal_dissipation"] + dissipated
+    given = core["load_work"] + core["circulatory_work"] + core["obstacle_work"]
     terms = {
         "kinetic": core["kinetic"],
         "elastic": core["elastic"],
@@ -60,9 +61,10 @@ def ledger(response: Response, times: FloatArray) -> Ledger:
         "dissipated_stops": dissipated,
         "load_work": core["load_work"],
         "circulatory_work": core["circulatory_work"],
+        "obstacle_work": core["obstacle_work"],
         "total": total,
         "total_initial": np.full_like(total, present[0]),
-        "residual": total - present[0] - core["load_work"] - core["circulatory_work"],
+        "residual": total - present[0] - given,
     }
     stops = {"stored_in_stop": core["law_stored"].T, "dissipated_in_stop": core["law_dissipated"].T}
     return Ledger(

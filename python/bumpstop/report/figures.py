@@ -132,15 +132,17 @@ def energy_ledger(response: Response) -> Figure:
     """Stack where the energy is over time, against what was put in.
 
     The top of the stack is kinetic + elastic + stored + dissipated; the dashed line is the
-    initial energy plus the work of loads and circulatory forces. They coincide where the ledger
-    closes.
+    initial energy plus the work of loads, circulatory forces and obstacles. They coincide where
+    the ledger closes.
     """
     times = instants(response)
     terms = response.energy_terms(times)
     present = [key for key in LEDGER if np.any(terms[key])]
     share = MOST_POINTS // max(len(present), 1)
     kept = np.unique([0, *(i for key in present for i in thin(terms[key], at_most=share))])
-    works = [name for name in ("load_work", "circulatory_work") if np.any(terms[name])]
+    works = [
+        name for name in ("load_work", "circulatory_work", "obstacle_work") if np.any(terms[name])
+    ]
     given = sum((terms[name] for name in works), start=terms["total_initial"])[kept]
     time = Axis("Time", scale_for("s", times))
     energy = Axis("Energy", scale_for("J", given))

@@ -10,6 +10,8 @@ pub struct Harmonic {
     pub omega: f64,
     /// One for each mode.
     pub amplitude: Vec<Complex<f64>>,
+    /// Amplitudes in m of the obstacles that it moves, by the numbers of their laws.
+    pub motions: Vec<(usize, Complex<f64>)>,
 }
 
 impl Harmonic {
@@ -27,6 +29,7 @@ impl Harmonic {
         Ok(Self {
             omega,
             amplitude: both.map(|(c, s)| Complex::new(*c, -s)).collect(),
+            motions: Vec::new(),
         })
     }
 
@@ -34,6 +37,7 @@ impl Harmonic {
         for (own, other) in self.amplitude.iter_mut().zip(&other.amplitude) {
             *own += *other;
         }
+        self.motions.extend_from_slice(&other.motions);
     }
 
     /// `exp(i omega t)`. The angle is kept with what its rounding lacks, so that only the

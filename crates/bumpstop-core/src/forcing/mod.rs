@@ -3,9 +3,14 @@
 //! `p(t) = constant + sum_k direction_k f_k(t) + sum_m Re[(cosine_m - i sine_m) exp(i omega_m t)]`
 //! with polynomials and tables f_k. Over a phase each f_k is a polynomial in the time since the
 //! phase began, and each harmonic a turning complex number: [`Onset`] keeps both.
+//!
+//! The same functions move obstacles: what they add up to is taken off the first local coordinate
+//! of a law.
 
 mod harmonic;
 mod table;
+
+mod motion;
 
 pub use harmonic::Harmonic;
 pub use table::{Beyond, Table};
@@ -21,6 +26,8 @@ pub const HIGHEST_DEGREE: usize = 5;
 pub struct Channel {
     /// Modal forces at the value one, in N per unit modal displacement.
     pub direction: Vec<f64>,
+    /// The law whose obstacle it moves, by number; the direction is zero then.
+    pub moves: Option<usize>,
     /// How it changes.
     pub history: History,
 }
@@ -82,6 +89,7 @@ impl Forcing {
         }
         self.channels.push(Channel {
             direction,
+            moves: None,
             history: History::Polynomial(coefficients),
         });
         Ok(self)
@@ -95,6 +103,7 @@ impl Forcing {
         self.check_direction(&direction)?;
         self.channels.push(Channel {
             direction,
+            moves: None,
             history: History::Table(table),
         });
         Ok(self)
@@ -110,11 +119,15 @@ impl Forcing {
         self.check_direction(cosine)?;
         self.check_direction(sine)?;
         let fresh = Harmonic::new(omega, cosine, sine)?;
-        match self.harmonics.iter_mut().find(|h| h.omega == omega) {
+        self.join(fresh);
+        Ok(self)
+    }
+
+    fn join(&mut self, fresh: Harmonic) {
+        match self.harmonics.iter_mut().find(|h| h.omega == fresh.omega) {
             Some(known) => known.add(&fresh),
             None => self.harmonics.push(fresh),
         }
-        Ok(self)
     }
 
     fn check_direction(&self, direction: &[f64]) -> Result<()> {
@@ -166,7 +179,8 @@ impl Forcing {
         }
     }
 
-    /// The forces at a time and their rates just after it.
+    /// The forces of the loads, without the motions of obstacles, at a time and their rates just
+    /// after it.
     pub fn around(&self, time: f64) -> [Vec<f64>; 2] {
         let (mut forces, mut rates) = (self.constant.clone(), vec![0.0; self.constant.len()]);
         self.at(time, &mut forces);

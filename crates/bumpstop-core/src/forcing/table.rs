@@ -65,6 +65,17 @@ impl Table {
         self.times.get(place).copied().unwrap_or(f64::INFINITY)
     }
 
+    /// The first time at which it jumps.
+    pub(super) fn jump(&self) -> Option<f64> {
+        let last = self.times.len() - 1;
+        let ends = [0, last].into_iter().filter(|end| self.values[*end] != 0.0);
+        let ends = ends.filter(|_| self.beyond == Beyond::Zero);
+        let inside = (0..last).filter(|knot| {
+            self.times[*knot] == self.times[knot + 1] && self.values[*knot] != self.values[knot + 1]
+        });
+        inside.chain(ends).map(|knot| self.times[knot]).next()
+    }
+
     /// Value and slope at a time, from its place.
     pub fn line(&self, place: usize, time: f64) -> [f64; 2] {
         let outside = |knot: usize| match self.beyond {

@@ -10,8 +10,8 @@
 use super::Observer;
 use super::fixed_step::{
     ChangingLoads, Count, March, Modal, Setting, Step, StepRecord, VelocityRule, check_forces,
-    check_step, check_uncoupled, coupling, highest_frequency, in_lanes, law_force, laws_damping,
-    modal, pushed, run,
+    check_step, check_still, check_uncoupled, coupling, highest_frequency, in_lanes, law_force,
+    laws_damping, modal, pushed, run,
 };
 use crate::error::Result;
 use crate::history::History;
@@ -43,6 +43,7 @@ pub fn simulate<L: Law>(
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Central)?;
     check_uncoupled(NAME, &problem.system)?;
     check_forces(NAME, &problem.laws)?;
+    check_still(NAME, &problem.forcing)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = CentralDifference {
         record: &mut record,

@@ -56,6 +56,7 @@ impl Watch {
         let mut is_curved = false;
         let mut first_view = 0;
         let remaining = problem.duration - phase.start;
+        let moves = problem.forcing.varies() && problem.forcing.moved().next().is_some();
         for (index, law) in problem.laws.iter().enumerate() {
             for number in 0..law.guard_count(states[index]) {
                 if law.is_curved(states[index], number) {
@@ -78,9 +79,13 @@ impl Watch {
                 let zero = value <= signal.rounding(0.0) || same();
                 let noise = signal.rate_rounding(phases, phase)[0];
                 let is_held = phases.spectra[phase.spectrum].held.is_some();
+                // The speed of an obstacle, and with it a damper's force, may jump.
+                let is_behind = moves && value < -signal.rounding(0.0) && !same();
                 let start = if !zero {
                     Start::Positive
-                } else if has_jumped(problem, states, index, function, moment) && !same() {
+                } else if is_behind
+                    || has_jumped(problem, states, index, function, moment) && !same()
+                {
                     Start::Below
                 } else if flat || is_held || slope.abs() > DOUBTFUL * noise {
                     Start::Zero(None)

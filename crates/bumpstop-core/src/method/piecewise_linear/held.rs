@@ -7,6 +7,7 @@
 
 use super::coupled::Coupled;
 use super::phase::{Phase, Phases};
+use super::response::Link;
 use super::rows::{entry, set_entry};
 use super::signal::Signal;
 use super::spectrum::{Member, Spectrum};
@@ -151,7 +152,7 @@ impl Reaction {
             };
             reaction.views[0].set::<I>(spectrum, &forces.of_position, combined);
             reaction.views[1].set::<I>(spectrum, &forces.of_velocity, combined);
-            reaction.views[0].resist_loads(problem, spectrum, &row);
+            reaction.views[0].resist_loads(spectrum, &row);
             reactions.push((directions.laws[place], reaction));
         }
         reactions
@@ -228,21 +229,22 @@ impl Resistance {
 
 impl View {
     /// Takes the loads that change in time away, as seen along a row.
-    fn resist_loads<L: Law>(&mut self, problem: &Problem<L>, spectrum: &Spectrum, row: &[f64]) {
+    fn resist_loads(&mut self, spectrum: &Spectrum, row: &[f64]) {
         let Some(response) = &spectrum.response else {
             return;
         };
-        let forcing = &problem.forcing;
-        for (number, harmonic) in forcing.harmonics().iter().enumerate() {
+        for (number, amplitude) in response.drives.harmonics.iter().enumerate() {
             let at = response.at + number;
-            let pushed = row.iter().zip(&harmonic.amplitude);
+            let pushed = row.iter().zip(amplitude);
             let seen = pushed.fold(Complex::zero(), |sum, (r, p)| p.scale_add(*r, sum));
             let resisted = entry(&self.exponents, at) - seen;
             set_entry(&mut self.exponents, at, resisted);
         }
-        for (link, weight) in response.links.iter().zip(&mut self.links) {
-            if link.order == 0 {
-                *weight -= dot(row, &forcing.channels()[link.channel].direction);
+        for push in &response.drives.pushes {
+            let goes_with =
+                |link: &Link| link.channel == push.channel && link.order == push.order as i32;
+            if let Some(link) = response.links.iter().position(goes_with) {
+                self.links[link] -= dot(row, &push.direction);
             }
         }
     }

@@ -106,21 +106,27 @@ fn local_motion<L: Law>(
         accelerations.add(forcing.forces());
     }
     accelerations.add_structure(&problem.system, q, v);
-    for (law, state) in others(problem, states, without) {
-        let force = law.force(state, &project(law, q), &project(law, v));
-        accelerations.add_law(law, &force);
+    for (index, law, state) in others(problem, states, without) {
+        let [position, velocity] = problem.local(index, moment.time, q, v);
+        accelerations.add_law(law, &law.force(state, &position, &velocity));
     }
     let held = Directions::held(problem, states);
     accelerations.react(&held);
     let a = &*accelerations.values;
     jerks.add_structure(&problem.system, v, a);
-    for (law, state) in others(problem, states, without) {
+    for (index, law, state) in others(problem, states, without) {
         let piece = law.piece(state).unwrap_or(Piece::FREE);
         let rate = Piece {
             constant: [0.0; COORDINATES],
             ..piece
         };
-        jerks.add_law(law, &rate.force(&project(law, v), &project(law, a)));
+        let (mut velocity, mut acceleration) = (project(law, v), project(law, a));
+        if forcing.varies() {
+            let [_, moved, moved_rate, _] = forcing.motion(index, moment.time);
+            velocity[0] -= moved;
+            acceleration[0] -= moved_rate;
+        }
+        jerks.add_law(law, &rate.force(&velocity, &acceleration));
     }
     jerks.react(&held);
     let mut motion = LocalMotion::default();
@@ -137,18 +143,23 @@ fn local_motion<L: Law>(
         }
         motion.add(coordinate, derivatives, zero);
     }
+    if forcing.varies() {
+        let moved = forcing.motion(of, moment.time);
+        let zero = |x: f64| 8.0 * f64::EPSILON * x.abs();
+        motion.add(0, moved.map(|x| -x), moved.map(zero));
+    }
     motion
 }
 
-/// The laws, without one where that is told, and their states.
+/// The laws with their numbers, without one where that is told, and their states.
 fn others<'a, L: Law>(
     problem: &'a Problem<L>,
     states: &'a [State],
     without: Option<usize>,
-) -> impl Iterator<Item = (&'a L, State)> {
+) -> impl Iterator<Item = (usize, &'a L, State)> {
     let all = problem.laws.iter().zip(states).enumerate();
     all.filter(move |(index, _)| Some(*index) != without)
-        .map(|(_, (law, state))| (law, *state))
+        .map(|(index, (law, state))| (index, law, *state))
 }
 
 /// Sums, one for each mode, and the sizes of what was added to each.

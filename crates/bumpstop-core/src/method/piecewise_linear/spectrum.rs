@@ -10,7 +10,7 @@ use super::dense;
 use super::grouping::{Acting, Acts, group_alike, group_forces, static_groups};
 use super::held::{Held, Reaction};
 use super::impedance::Impedance;
-use super::response::Response;
+use super::response::{Drives, Response};
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
 use super::single_mode::SingleMode;
@@ -140,13 +140,17 @@ impl Spectrum {
         }
         let mut views = std::mem::take(&mut spectrum.views);
         let mut count = 0;
-        for law in &problem.laws {
+        for (number, law) in problem.laws.iter().enumerate() {
+            let first = count;
             for row in law.rows() {
                 if views.len() == count {
                     views.push(View::default());
                 }
                 views[count].set::<I>(&spectrum, row, &mut bench.combined);
                 count += 1;
+            }
+            if let Some(response) = &spectrum.response {
+                views[first].subtract_motion(response, &problem.forcing, number);
             }
         }
         views.truncate(count);
@@ -203,8 +207,10 @@ impl Spectrum {
             Some(Impedance::Dense(Box::new(coupled)))
         };
         let forcing = &problem.forcing;
+        let drives = Drives::of(problem, &self.states);
+        let duration = problem.duration;
         let (response, mut clusters) =
-            Response::new(forcing, self, impedance.as_ref(), problem.duration);
+            Response::new(forcing, drives, self, impedance.as_ref(), duration);
         self.response = Some(Box::new(response));
         // Their columns turn by the clusters alone.
         let columns = clusters.last().map_or(0, |last| last.at + last.size);

@@ -4,6 +4,7 @@ use super::cluster::Cluster;
 use super::response::Response;
 use super::rows::{ComplexBlock, entry, set_entry};
 use super::spectrum::{Spectrum, Subject};
+use crate::forcing::Forcing;
 use crate::number::{Complex, Instructions, Lanes, Number};
 use std::borrow::Cow;
 
@@ -103,6 +104,20 @@ impl View {
                 .extend(follower.shapes.iter().map(|shape| seen(shape)));
             let load = std::iter::repeat_n(Complex::zero(), cluster.drives());
             self.clusters.extend(load);
+        }
+    }
+
+    /// Takes off how far the obstacle of a law has moved.
+    pub(crate) fn subtract_motion(&mut self, response: &Response, forcing: &Forcing, law: usize) {
+        for (link, _) in response.motions.iter().filter(|(_, moved)| *moved == law) {
+            self.links[*link] -= 1.0;
+        }
+        for (number, harmonic) in forcing.harmonics().iter().enumerate() {
+            let at = response.at + number;
+            for (_, motion) in harmonic.motions.iter().filter(|(moved, _)| *moved == law) {
+                let seen = entry(&self.exponents, at) - *motion;
+                set_entry(&mut self.exponents, at, seen);
+            }
         }
     }
 

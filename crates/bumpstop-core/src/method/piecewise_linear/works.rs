@@ -31,6 +31,8 @@ pub(crate) struct Works {
     pub circulatory: f64,
     /// Given by loads that change in time.
     pub loads: f64,
+    /// Given by obstacles that move.
+    pub obstacles: f64,
 }
 
 impl Works {
@@ -41,6 +43,7 @@ impl Works {
             laws: vec![0.0; laws],
             circulatory: 0.0,
             loads: 0.0,
+            obstacles: 0.0,
         }
     }
 }
@@ -51,8 +54,8 @@ impl Works {
 pub(crate) struct Powers {
     pub dampers: Vec<Damper>,
     circulations: Vec<Circulation>,
-    /// The directions of polynomials and tables.
-    channels: Vec<Vec<f64>>,
+    /// The directions of polynomials and tables, with their numbers.
+    channels: Vec<(usize, Vec<f64>)>,
     /// Real and imaginary part of the amplitudes of each harmonic.
     harmonics: Vec<[Vec<f64>; 2]>,
 }
@@ -81,7 +84,8 @@ impl Powers {
     /// Of the damping matrix, whose skew part takes nothing out, of the circulatory one, and of
     /// the loads.
     fn of(system: &ModalSystem, forcing: &Forcing) -> Self {
-        let channels = forcing.channels().iter();
+        let channels = forcing.channels().iter().enumerate();
+        let channels = channels.filter(|(_, channel)| channel.moves.is_none());
         let harmonics = forcing.harmonics().iter().map(|harmonic| {
             let part = |of: fn(&Complex<f64>) -> f64| harmonic.amplitude.iter().map(of).collect();
             [part(|z| z.re), part(|z| z.im)]
@@ -89,7 +93,8 @@ impl Powers {
         Self {
             dampers: dampers(system),
             circulations: system.circulatory().map_or_else(Vec::new, circulations),
-            channels: channels.map(|channel| channel.direction.clone()).collect(),
+            channels: (channels.map(|(number, channel)| (number, channel.direction.clone())))
+                .collect(),
             harmonics: harmonics.collect(),
         }
     }
@@ -166,7 +171,7 @@ pub(crate) struct Sights {
     dampers: Vec<(f64, View)>,
     /// Strength, position and rate.
     circulations: Vec<(f64, View, View)>,
-    channels: Vec<View>,
+    channels: Vec<(usize, View)>,
     harmonics: Vec<[View; 2]>,
 }
 
@@ -194,7 +199,9 @@ impl Meter {
             circulations: (powers.circulations.iter())
                 .map(|c| (c.strength, see(&c.position), see(&c.rate)))
                 .collect(),
-            channels: powers.channels.iter().map(|row| see(row)).collect(),
+            channels: (powers.channels.iter())
+                .map(|(number, row)| (*number, see(row)))
+                .collect(),
             harmonics: (powers.harmonics.iter())
                 .map(|[re, im]| [see(re), see(im)])
                 .collect(),
@@ -274,7 +281,9 @@ impl Sights {
         let mut first_view = 0;
         for (index, law) in problem.laws.iter().enumerate() {
             let power = law.dissipation(phases.states(phase)[index]);
-            works.laws[index] = account.power::<I>(&spectrum.views[first_view..], &power);
+            let views = &spectrum.views[first_view..];
+            works.laws[index] = account.power::<I>(views, &power);
+            works.obstacles += account.of_obstacle::<I, L>(problem, index, views);
             first_view += law.rows().len();
         }
         works
@@ -298,8 +307,8 @@ impl Sights {
         };
         let mut total = 0.0;
         let coefficients = account.phases.coefficients(account.phase);
-        for (channel, view) in self.channels.iter().enumerate() {
-            let from = channel * response.stride;
+        for (channel, view) in &self.channels {
+            let from = *channel * response.stride;
             let load = Factor {
                 polynomial: coefficients[from..from + response.stride].to_vec(),
                 ..Factor::default()
@@ -358,6 +367,34 @@ impl Account<'_> {
         let rate = self.rate::<I>(view);
         let rate = rate.factor(self.phases, self.phase);
         self.products.integral::<I>(load, &rate)
+    }
+
+    /// Work of the obstacle of a law against the force that it makes.
+    #[inline(always)]
+    fn of_obstacle<I: Instructions, L: Law>(
+        &mut self,
+        problem: &Problem<L>,
+        law: usize,
+        views: &[View],
+    ) -> f64 {
+        let spectrum = &self.phases.spectra[self.phase.spectrum];
+        let Some(response) = &spectrum.response else {
+            return 0.0;
+        };
+        let state = self.phases.states(self.phase)[law];
+        let piece = problem.laws[law].piece(state).filter(Piece::acts);
+        let Some(piece) = piece.filter(|_| problem.forcing.moved().any(|moved| moved == law))
+        else {
+            return 0.0;
+        };
+        let mut force = Affine::ZERO;
+        force.constant = piece.constant[0];
+        force.position = piece.stiffness[0].map(|k| -k);
+        force.velocity = piece.damping[0].map(|c| -c);
+        let force = self.signal::<I>(views, &force);
+        let rate = response.obstacle_rate(&problem.forcing, law, self.phases, self.phase);
+        let force = force.factor(self.phases, self.phase);
+        self.products.integral::<I>(&force, &rate)
     }
 
     #[inline(always)]

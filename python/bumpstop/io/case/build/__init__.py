@@ -54,7 +54,7 @@ class Builder:
         with keyed(renamed=_renamed(case)):
             return Problem(
                 basis,
-                laws=built_laws(case),
+                laws=built_laws(case, self._folder),
                 loads=built_loads(case, self._folder),
                 initial=initial,
                 duration=run.duration,

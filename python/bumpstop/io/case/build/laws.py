@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bumpstop.io.case.keys import keyed
@@ -11,8 +12,10 @@ from bumpstop.laws import Stop
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
     from bumpstop.io.case.tables.laws import LawTable
+    from bumpstop.io.case.tables.motion import MotionTable
     from bumpstop.io.case.tables.stops import StopTable
     from bumpstop.laws import RigidStop, SpringLaw
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Law
 
 __all__ = ["built_laws"]
@@ -24,26 +27,30 @@ ELASTIC = (
     "sliding",
     "tangential_stiffness",
     "tangential_damping",
+    "motion",
 )
 """What a stop that gives way can have."""
 
 
-def built_laws(case: CaseFile) -> list[Law]:
-    """Return the laws that the tables describe."""
+def built_laws(case: CaseFile, folder: Path) -> list[Law]:
+    """Return the laws that the tables describe; files in them are relative to the folder."""
     laws: list[Law] = []
     for name, table in case.stops.items():
         with keyed(f"stops.{name}"):
-            laws.append(_stop(name, table))
+            laws.append(_stop(name, table, folder))
     for name, law in case.laws.items():
         with keyed(f"laws.{name}"):
             laws.append(_spring(name, law))
     return laws
 
 
-def _stop(name: str, table: StopTable) -> Stop | RigidStop:
+def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop:
     from bumpstop.errors import InputError
 
     given = _given(table)
+    if table.motion is not None:
+        with keyed("motion"):
+            given["motion"] = _motion(table.motion, folder)
     if table.restitution is not None:
         from bumpstop.laws import RigidStop
 
@@ -60,6 +67,17 @@ def _stop(name: str, table: StopTable) -> Stop | RigidStop:
         what, value = "belongs to rigid stops", given["resolution"]
         raise InputError(what, key="resolution", value=value, hint="leave it out")
     return Stop(name, **given)
+
+
+def _motion(table: MotionTable, folder: Path) -> list[TimeFunction]:
+    from bumpstop.errors import InputError
+    from bumpstop.io.case.build.time import built_time
+    from bumpstop.loads.time import scaled
+
+    functions = built_time(table, folder)
+    if functions is None:
+        raise InputError("needs harmonics, a polynomial or a table")
+    return [scaled(function, table.travel) for function in functions]
 
 
 def _spring(name: str, table: LawTable) -> SpringLaw:

@@ -1,11 +1,17 @@
 """``[stops.NAME]``."""
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from bumpstop.io.case.fields.laws import FrictionCoefficients, Sliding
 from bumpstop.io.case.fields.quantities import DampingConstant, Length, Number3, Ratio, Stiffness
 from bumpstop.io.case.fields.words import Node, OneDof, choice
+from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.table import Field, Table
+
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.motion import MotionTable
+else:
+    MotionTable = later("motion", "MotionTable")
 
 __all__ = ["StopTable"]
 
@@ -48,6 +54,10 @@ class StopTable(Table):
         "from 1e-13 to 1, 1e-12 where left out",
     )
     damping: DampingConstant = Field(default=0.0, description="Contact damping, in N s/m")
+    motion: MotionTable | None = Field(
+        default=None,
+        description="How far the obstacle moves along its normal, towards the structure, over time",
+    )
     friction: FrictionCoefficients | None = Field(
         default=None,
         description="Coefficient of Coulomb friction, or { static = ..., dynamic = ... }",

@@ -2,7 +2,7 @@
 
 use super::{Motion, PhaseRecord};
 use crate::energy::{self, Ledger};
-use crate::law::{Law, State, project};
+use crate::law::{Law, State};
 use crate::method::piecewise_linear::phase::{Phase, Phases, Workspace};
 use crate::method::piecewise_linear::works::{Meter, Works};
 use crate::number::{Instructions, Vectorised};
@@ -41,7 +41,7 @@ impl PhaseRecord {
                     v: problem.velocity.clone(),
                 };
                 self.strike::<I, L>(problem, 0, &mut motion, &mut work);
-                let mut ledger = state_ledger(problem, phases.states(*phase), &motion);
+                let mut ledger = state_ledger(problem, 0.0, phases.states(*phase), &motion);
                 self.add_blows(0, &mut ledger.law_dissipated);
                 accounts.ledgers.push(ledger);
                 accounts.changing.push(0.0);
@@ -57,7 +57,8 @@ impl PhaseRecord {
                 self.add_blows(number + 1, &mut works.laws);
             }
             let after = next.unwrap_or(phase);
-            let mut ledger = state_ledger(problem, phases.states(*after), &motion);
+            let end = phase.start + length;
+            let mut ledger = state_ledger(problem, end, phases.states(*after), &motion);
             accounts.add_works(number, &works, &mut ledger);
             accounts
                 .changing
@@ -96,6 +97,7 @@ impl Accounts {
         ledger.load_work += self.changing[phase] + works.loads;
         ledger.modal_dissipation = last.modal_dissipation + works.modal;
         ledger.circulatory_work = last.circulatory_work + works.circulatory;
+        ledger.obstacle_work = last.obstacle_work + works.obstacles;
         for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
             *total = last.law_dissipated[i] + works.laws[i];
         }
@@ -127,7 +129,7 @@ impl<L: Law> Vectorised for Ledgers<'_, L> {
             let meter = &accounts.meters[phase.spectrum];
             let works = meter.until::<I, L>(problem, phases, phase, t, &mut work);
             let motion = record.motion_in::<I, L>(problem, phase, t, &mut work);
-            let mut ledger = state_ledger(problem, phases.states(phase), &motion);
+            let mut ledger = state_ledger(problem, *time, phases.states(phase), &motion);
             accounts.add_works(number, &works, &mut ledger);
             ledgers.push(ledger);
         }
@@ -150,16 +152,25 @@ impl<L: Law> Vectorised for Settlement<'_, L> {
 }
 
 /// Kinetic, elastic and stored energies and the work of constant loads.
-fn state_ledger<L: Law>(problem: &Problem<L>, states: &[State], motion: &Motion) -> Ledger {
+fn state_ledger<L: Law>(
+    problem: &Problem<L>,
+    time: f64,
+    states: &[State],
+    motion: &Motion,
+) -> Ledger {
     let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), &motion.q, &motion.v);
     Ledger {
         kinetic,
         elastic,
-        law_stored: (problem.laws.iter().zip(states))
-            .map(|(law, state)| law.stored(*state, &project(law, &motion.q)))
+        law_stored: (problem.laws.iter().zip(states).enumerate())
+            .map(|(index, (law, state))| {
+                let [position, _] = problem.local(index, time, &motion.q, &motion.v);
+                law.stored(*state, &position)
+            })
             .collect(),
         modal_dissipation: 0.0,
         circulatory_work: 0.0,
+        obstacle_work: 0.0,
         law_dissipated: vec![0.0; problem.laws.len()],
         load_work: problem.forcing.work(&problem.displacement, &motion.q),
     }
@@ -176,7 +187,8 @@ fn add_switch_losses<L: Law>(
     let (from, to) = (phases.states(before), phases.states(after));
     for (i, law) in problem.laws.iter().enumerate() {
         if from[i] != to[i] {
-            works.laws[i] += law.switch_loss(from[i], to[i], &project(law, &motion.q));
+            let [position, _] = problem.local(i, after.start, &motion.q, &motion.v);
+            works.laws[i] += law.switch_loss(from[i], to[i], &position);
         }
     }
 }

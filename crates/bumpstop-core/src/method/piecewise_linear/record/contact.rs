@@ -3,7 +3,7 @@
 use super::PhaseRecord;
 use crate::dynamics::Moment;
 use crate::impacts::Impact;
-use crate::law::{Affine, Law, project};
+use crate::law::{Affine, Law};
 use crate::method::piecewise_linear::advance::{Certificate, Path, Start, Walk};
 use crate::method::piecewise_linear::curved::{CurvedGuards, Guards};
 use crate::method::piecewise_linear::held::Reaction;
@@ -90,11 +90,12 @@ impl<'a, L: Law> ContactReader<'a, L> {
     fn at(&mut self, phase: Phase, t: f64) -> [f64; 3] {
         let motion = (self.record).motion_in::<Plain, L>(self.problem, phase, t, &mut self.work);
         let law = &self.problem.laws[self.law];
-        let (position, velocity) = (project(law, &motion.q), project(law, &motion.v));
+        let time = phase.start + t;
+        let [position, velocity] = (self.problem).local(self.law, time, &motion.q, &motion.v);
         let (distance, rate) = law.distance(&position, &velocity);
         let states = self.record.phases.states(phase);
         let moment = Moment {
-            time: phase.start + t,
+            time,
             displacement: &motion.q,
             velocity: &motion.v,
             states,

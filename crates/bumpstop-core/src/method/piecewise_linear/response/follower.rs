@@ -5,15 +5,21 @@
 //! starts at `z = 0`. Resonance is then nothing but a cluster with one exponent more: where B and
 //! J are both `i omega` its motion is `t exp(i omega t)`.
 
+use super::drives::Push;
 use crate::forcing::Onset;
 use crate::method::piecewise_linear::cluster::{Cluster, Columns, Drive, NOTHING};
+use crate::method::piecewise_linear::polynomial::derivative_at;
 use crate::number::Complex;
 use faer::{Mat, c64};
 
 /// What is followed, by number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Leader {
-    Channel(usize),
+    /// A derivative of a channel's function.
+    Channel {
+        number: usize,
+        order: usize,
+    },
     Harmonic(usize),
 }
 
@@ -36,12 +42,16 @@ pub(super) struct Load {
 }
 
 impl Load {
-    /// A polynomial and its derivatives, each in the unit of the run's length.
-    pub(super) fn channel(number: usize, coefficients: usize, duration: f64) -> Self {
+    /// A derivative of a polynomial and those after it, each in the unit of the run's length.
+    pub(super) fn channel(push: &Push, coefficients: usize, duration: f64) -> Self {
+        let left = coefficients.saturating_sub(push.order);
         let next = |r: usize, c: usize| if c == r + 1 { 1.0 / duration } else { 0.0 };
         Self {
-            leader: Leader::Channel(number),
-            generator: Mat::from_fn(coefficients, coefficients, |r, c| c64::new(next(r, c), 0.0)),
+            leader: Leader::Channel {
+                number: push.channel,
+                order: push.order,
+            },
+            generator: Mat::from_fn(left, left, |r, c| c64::new(next(r, c), 0.0)),
         }
     }
 
@@ -65,7 +75,7 @@ impl Follower {
         duration: f64,
     ) -> Option<(Self, Cluster)> {
         let gain = gains.iter().map(|g| g.norm2()).sum::<f64>().sqrt();
-        if gain == 0.0 {
+        if gain == 0.0 || load.generator.nrows() == 0 {
             return None;
         }
         // What a load gives in a run: its columns are about as large as the block's.
@@ -97,12 +107,12 @@ impl Follower {
         let mut columns = NOTHING;
         let load = &mut columns[cluster.size - cluster.drives()..cluster.size];
         match self.leader {
-            Leader::Channel(number) => {
-                let mut factor = self.size;
+            Leader::Channel { number, order } => {
                 let coefficients = &onset.coefficients[number * stride..][..stride];
-                for (order, (to, c)) in load.iter_mut().zip(coefficients).enumerate() {
-                    *to = Complex::real(factor * c);
-                    factor *= self.unit * (order + 1) as f64;
+                let mut size = self.size;
+                for (to, order) in load.iter_mut().zip(order as i32..) {
+                    *to = Complex::real(size * derivative_at(coefficients, order, 0.0));
+                    size *= self.unit;
                 }
             }
             Leader::Harmonic(number) => load[0] = onset.units[number].scale(self.size),

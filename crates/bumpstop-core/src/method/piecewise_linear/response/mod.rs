@@ -15,20 +15,25 @@
 //! rest instead, see [`follower`].
 
 mod block;
+mod drives;
 mod follower;
 mod parts;
 mod single;
 
+pub(crate) use drives::Drives;
 pub(crate) use follower::{Follower, Leader};
 
 use super::cluster::Cluster;
 use super::impedance::Impedance;
-use super::polynomial::derivative_at;
+use super::phase::{Phase, Phases};
+use super::polynomial::{derivative_at, of_derivative};
+use super::product::Factor;
 use super::rows::{ComplexBlock, set_entry};
 use super::spectrum::Spectrum;
-use crate::forcing::{Forcing, Harmonic, Onset};
+use crate::forcing::{Forcing, Onset};
 use crate::number::Complex;
 use block::Block;
+use drives::Push;
 use faer::{Mat, c64};
 use follower::Load;
 use parts::{ComplexParts, Parts};
@@ -55,6 +60,10 @@ pub(crate) struct Response {
     pub shapes: Vec<Vec<Complex<f64>>>,
     /// Those of the spectrum's last clusters.
     pub followers: Vec<Follower>,
+    /// What is followed.
+    pub drives: Drives,
+    /// Links that move no mode: the motions of obstacles, with the numbers of their laws.
+    pub motions: Vec<(usize, usize)>,
 }
 
 impl Response {
@@ -62,6 +71,7 @@ impl Response {
     /// from rest; `impedance` is that of its groups.
     pub(crate) fn new(
         forcing: &Forcing,
+        drives: Drives,
         spectrum: &Spectrum,
         impedance: Option<&Impedance<'_>>,
         duration: f64,
@@ -75,6 +85,8 @@ impl Response {
             omegas: forcing.harmonics().iter().map(|h| h.omega).collect(),
             shapes: Vec::new(),
             followers: Vec::new(),
+            drives: Drives::default(),
+            motions: Vec::new(),
         };
         let mut making = Making {
             spectrum,
@@ -90,13 +102,59 @@ impl Response {
             response,
             clusters: Vec::new(),
         };
+        for push in &drives.pushes {
+            making.follow_channel(push);
+        }
+        for (number, amplitude) in drives.harmonics.iter().enumerate() {
+            making.follow_harmonic(number, amplitude);
+        }
+        making.response.drives = drives;
+        making.response.add_motions(forcing);
+        (making.response, making.clusters)
+    }
+
+    fn add_motions(&mut self, forcing: &Forcing) {
         for (channel, load) in forcing.channels().iter().enumerate() {
-            making.follow_channel(channel, &load.direction);
+            if let Some(law) = load.moves {
+                self.motions.push((self.links.len(), law));
+                self.links.push(Link {
+                    channel,
+                    order: 0,
+                    row: vec![0.0; load.direction.len()],
+                });
+            }
+        }
+    }
+
+    /// The speed of a law's obstacle during a phase.
+    pub(crate) fn obstacle_rate(
+        &self,
+        forcing: &Forcing,
+        law: usize,
+        phases: &Phases,
+        phase: Phase,
+    ) -> Factor<'static> {
+        let coefficients = phases.coefficients(phase);
+        let mut rate = Factor {
+            amplitudes: vec![ComplexBlock::ZERO; phases.amplitudes(phase).len()],
+            polynomial: vec![0.0; self.stride],
+            other: None,
+        };
+        for (link, _) in self.motions.iter().filter(|(_, moved)| *moved == law) {
+            let channel = self.links[*link].channel;
+            let channel = &coefficients[channel * self.stride..][..self.stride];
+            for (power, to) in rate.polynomial.iter_mut().enumerate() {
+                *to += of_derivative(channel, 1, power);
+            }
         }
         for (number, harmonic) in forcing.harmonics().iter().enumerate() {
-            making.follow_harmonic(number, harmonic);
+            let own = harmonic.motions.iter().filter(|(moved, _)| *moved == law);
+            let amplitude = own.fold(Complex::zero(), |total, (_, motion)| total + *motion);
+            let turning = amplitude * Complex::new(0.0, harmonic.omega);
+            let unit = phases.unit(phase, self, number);
+            set_entry(&mut rate.amplitudes, self.at + number, turning * unit);
         }
-        (making.response, making.clusters)
+        rate
     }
 
     /// Numbers in its arrays.
@@ -207,11 +265,11 @@ struct Making<'a> {
 }
 
 impl Making<'_> {
-    fn follow_channel(&mut self, channel: usize, direction: &[f64]) {
+    fn follow_channel(&mut self, push: &Push) {
         let (spectrum, duration, stride) = (self.spectrum, self.duration, self.response.stride);
-        let parts = Parts::of(spectrum, direction);
+        let parts = Parts::of(spectrum, &push.direction);
         let force = ComplexParts::of_real(&parts);
-        let load = Load::channel(channel, stride, duration);
+        let load = Load::channel(push, stride, duration);
         let blocks = std::mem::take(&mut self.blocks);
         for block in blocks.iter().filter(|block| block.is_slow(duration)) {
             self.add_follower(&load, block, &force);
@@ -231,10 +289,10 @@ impl Making<'_> {
             });
         }
         self.singles = own;
-        self.add_links(channel, &groups, &singles);
+        self.add_links(push, &groups, &singles);
     }
 
-    fn add_links(&mut self, channel: usize, groups: &[Vec<f64>], singles: &[Vec<f64>]) {
+    fn add_links(&mut self, push: &Push, groups: &[Vec<f64>], singles: &[Vec<f64>]) {
         let spectrum = self.spectrum;
         for (number, order) in (-2..self.response.stride as i32).enumerate() {
             let zero = vec![0.0; spectrum.combinations];
@@ -248,8 +306,8 @@ impl Making<'_> {
             let is_resisted = order == 0 && spectrum.held.is_some();
             if is_resisted || row.iter().any(|x| *x != 0.0) {
                 self.response.links.push(Link {
-                    channel,
-                    order,
+                    channel: push.channel,
+                    order: order + push.order as i32,
                     row,
                 });
             }
@@ -271,9 +329,9 @@ impl Making<'_> {
         })
     }
 
-    fn follow_harmonic(&mut self, number: usize, harmonic: &Harmonic) {
-        let omega = harmonic.omega;
-        let force = ComplexParts::of(self.spectrum, &harmonic.amplitude);
+    fn follow_harmonic(&mut self, number: usize, amplitude: &[Complex<f64>]) {
+        let omega = self.response.omegas[number];
+        let force = ComplexParts::of(self.spectrum, amplitude);
         let load = Load::harmonic(number, omega);
         let mut parts = ComplexParts::zero(self.spectrum);
         let mut shape = vec![Complex::zero(); self.modes];

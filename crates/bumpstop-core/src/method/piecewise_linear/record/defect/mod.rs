@@ -15,6 +15,7 @@ use super::projection::COORDINATE;
 use crate::error::Result;
 use crate::law::{Law, Piece};
 use crate::method::piecewise_linear::phase::{Phase, Workspace};
+use crate::method::piecewise_linear::polynomial::of_derivative;
 use crate::method::piecewise_linear::signal::Signal;
 use crate::number::{LANES, Plain};
 use crate::problem::Problem;
@@ -143,11 +144,12 @@ impl<'a, L: Law> Defect<'a, L> {
                 }
             }
         }
-        let coefficients = phases.coefficients(phase).chunks(stride);
-        for (channel, coefficients) in forcing.channels().iter().zip(coefficients) {
-            for (of_mode, direction) in force.iter_mut().zip(&channel.direction) {
-                for (to, coefficient) in of_mode.iter_mut().zip(coefficients) {
-                    *to += direction * coefficient;
+        let response = phases.spectra[phase.spectrum].response.iter();
+        for push in response.flat_map(|response| &response.drives.pushes) {
+            let coefficients = &phases.coefficients(phase)[push.channel * stride..][..stride];
+            for (of_mode, direction) in force.iter_mut().zip(&push.direction) {
+                for (power, to) in of_mode.iter_mut().enumerate() {
+                    *to += direction * of_derivative(coefficients, push.order as i32, power);
                 }
             }
         }

@@ -93,7 +93,7 @@ impl Residual<'_> {
             }
             let mut residual = self.of_exponent(lambda, &shape);
             if let Some(harmonic) = harmonic {
-                self.take_load(problem, spectrum, clusters, harmonic, &mut residual);
+                self.take_load(spectrum, clusters, harmonic, &mut residual);
             }
             let Rounded { vector, rounding } = self.without_reactions(residual);
             let class = match classes.iter_mut().find(|class| class.exponent == lambda) {
@@ -151,15 +151,14 @@ impl Residual<'_> {
 
     /// Takes a harmonic load from the residual of its exponent, and adds what drives the clusters
     /// that follow it.
-    fn take_load<L: Law>(
+    fn take_load(
         &self,
-        problem: &Problem<L>,
         spectrum: &Spectrum,
         clusters: &[ClusterResidual],
         number: usize,
         residual: &mut Rounded,
     ) {
-        let harmonic = &problem.forcing.harmonics()[number];
+        let drives = spectrum.response.iter().map(|response| &response.drives);
         let (mut size, modes) = (0.0, residual.vector.len());
         let followers = spectrum.response.iter().flat_map(|r| &r.followers);
         let first = clusters.len() - followers.clone().count();
@@ -171,7 +170,9 @@ impl Residual<'_> {
                 residual.vector[i] += term;
                 size += term.norm();
             };
-            add(harmonic.amplitude[i].scale(-1.0));
+            for drives in drives.clone() {
+                add(drives.harmonics[number][i].scale(-1.0));
+            }
             for (follower, cluster) in &following {
                 add(cluster.driving[i][0].scale(follower.size));
             }

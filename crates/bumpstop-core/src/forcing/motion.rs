@@ -1,0 +1,149 @@
+//! Motions of obstacles.
+
+use super::{Channel, Forcing, Harmonic, History, Table};
+use crate::error::{Error, Result, check_finite};
+use crate::number::Complex;
+
+impl Forcing {
+    /// Moves the obstacle of a law by `c_0 + c_1 t + c_2 t^2 + ...`, in m: so much is taken off its
+    /// first local coordinate.
+    ///
+    /// # Errors
+    /// When a number is not finite or the degree is too high.
+    pub fn with_polynomial_motion(self, law: usize, coefficients: Vec<f64>) -> Result<Self> {
+        let still = vec![0.0; self.forces().len()];
+        Ok(self.with_polynomial(still, coefficients)?.moving(law))
+    }
+
+    /// Moves the obstacle of a law by a piecewise-linear function of time, in m.
+    ///
+    /// # Errors
+    /// When the table jumps: an obstacle moves at a finite speed.
+    pub fn with_table_motion(self, law: usize, table: Table) -> Result<Self> {
+        if let Some(time) = table.jump() {
+            return Err(Error::Jump { time });
+        }
+        let still = vec![0.0; self.forces().len()];
+        Ok(self.with_table(still, table)?.moving(law))
+    }
+
+    /// Moves the obstacle of a law by `cosine cos(omega t) + sine sin(omega t)`, in m.
+    ///
+    /// # Errors
+    /// When a number is not finite or the frequency is not positive.
+    pub fn with_harmonic_motion(
+        mut self,
+        law: usize,
+        omega: f64,
+        cosine: f64,
+        sine: f64,
+    ) -> Result<Self> {
+        check_finite("an obstacle's motion", &[cosine, sine])?;
+        let still = vec![0.0; self.forces().len()];
+        let mut fresh = Harmonic::new(omega, &still, &still)?;
+        fresh.motions.push((law, Complex::new(cosine, -sine)));
+        self.join(fresh);
+        Ok(self)
+    }
+
+    /// Marks the latest channel as the motion of a law's obstacle.
+    fn moving(mut self, law: usize) -> Self {
+        if let Some(channel) = self.channels.last_mut() {
+            channel.moves = Some(law);
+        }
+        self
+    }
+
+    /// The laws whose obstacles move, some of them several times.
+    pub fn moved(&self) -> impl Iterator<Item = usize> + '_ {
+        let by_channels = self.channels.iter().filter_map(|channel| channel.moves);
+        let by_harmonics = self.harmonics.iter().flat_map(|harmonic| &harmonic.motions);
+        by_channels.chain(by_harmonics.map(|(law, _)| *law))
+    }
+
+    /// How far the obstacle of a law has moved at a time, in m, and the first three derivatives just
+    /// after it.
+    pub fn motion(&self, law: usize, time: f64) -> [f64; 4] {
+        let mut motion = [0.0; 4];
+        for channel in self.channels.iter().filter(|c| c.moves == Some(law)) {
+            for (to, part) in motion.iter_mut().zip(channel.derivatives(time)) {
+                *to += part;
+            }
+        }
+        for harmonic in &self.harmonics {
+            for (_, amplitude) in harmonic.motions.iter().filter(|(moved, _)| *moved == law) {
+                let mut turning = *amplitude * harmonic.unit(time);
+                for to in &mut motion {
+                    *to += turning.re;
+                    turning = turning * Complex::new(0.0, harmonic.omega);
+                }
+            }
+        }
+        motion
+    }
+}
+
+impl Channel {
+    /// Its value at a time and the first three derivatives just after it.
+    fn derivatives(&self, time: f64) -> [f64; 4] {
+        match &self.history {
+            History::Polynomial(coefficients) => {
+                let mut shifted = vec![0.0; coefficients.len().max(4)];
+                super::shift(coefficients, time, &mut shifted);
+                [shifted[0], shifted[1], 2.0 * shifted[2], 6.0 * shifted[3]]
+            }
+            History::Table(table) => {
+                let [value, slope] = table.line(table.place(time), time);
+                [value, slope, 0.0, 0.0]
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forcing::Beyond;
+
+    fn still() -> Forcing {
+        Forcing::constant(vec![0.0, 0.0]).unwrap()
+    }
+
+    #[test]
+    fn motions_add_up_and_loads_do_not_feel_them() {
+        let table = Table::new(vec![0.0, 1.0], vec![2.0, 5.0], Beyond::Hold).unwrap();
+        let forcing = (still().with_polynomial_motion(1, vec![1.0, -2.0, 0.5, 0.25]))
+            .and_then(|f| f.with_table_motion(1, table))
+            .and_then(|f| f.with_harmonic_motion(1, 3.0, 0.1, 0.2))
+            .and_then(|f| f.with_harmonic_motion(0, 3.0, 7.0, 0.0))
+            .unwrap();
+        let t = 0.4f64;
+        let (sin, cos) = (3.0 * t).sin_cos();
+        let expected = [
+            1.0 - 2.0 * t + 0.5 * t * t + 0.25 * t.powi(3) + 2.0 + 3.0 * t + 0.1 * cos + 0.2 * sin,
+            -2.0 + t + 0.75 * t * t + 3.0 - 0.3 * sin + 0.6 * cos,
+            1.0 + 1.5 * t - 0.9 * cos - 1.8 * sin,
+            1.5 + 2.7 * sin - 5.4 * cos,
+        ];
+        for (a, b) in forcing.motion(1, t).iter().zip(expected) {
+            assert!((a - b).abs() < 1e-13, "{a} {b}");
+        }
+        assert_eq!(forcing.harmonics().len(), 1);
+        let mut forces = [1.0; 2];
+        forcing.at(t, &mut forces);
+        assert_eq!(forces, [0.0; 2]);
+        assert_eq!(forcing.moved().collect::<Vec<_>>(), [1, 1, 1, 0]);
+    }
+
+    #[test]
+    fn obstacles_do_not_jump() {
+        let jumps = [
+            (vec![0.0, 1.0, 1.0], vec![0.0, 1.0, 2.0], Beyond::Hold),
+            (vec![0.0, 1.0], vec![0.0, 1.0], Beyond::Zero),
+        ];
+        for (times, values, beyond) in jumps {
+            let table = Table::new(times, values, beyond).unwrap();
+            assert!(still().with_table_motion(0, table).is_err());
+        }
+    }
+}
