@@ -98,6 +98,10 @@ pub(crate) fn set_coupled(
 /// What is left of a constant force at rest, relative to it, above which there is no rest.
 const UNBALANCED: f64 = 1e-9;
 
+/// What rounding makes of the difference of two entries of a matrix that are meant to be equal,
+/// relative to its largest.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// Times the length of the run, the size below which an exponent is slow: a position at rest
 /// under a constant force would be so far away that digits were lost.
 const SLOW: f64 = 0.7;
@@ -106,7 +110,10 @@ impl Coupled {
     /// Exponents, clusters, shapes, left vectors and the position at rest.
     fn solve_into(&self, spectrum: &mut Spectrum, duration: f64) -> Result<()> {
         let principal = Principal::new(self, duration)?;
-        let split = split(&principal.state, SLOW / duration)?;
+        let mut split = split(&principal.state, SLOW / duration)?;
+        if self.is_conservative() {
+            split.keep_energy();
+        }
         let drives = self.force.norm_max() > 0.0;
         let slow = split.parts.iter().find(|part| drives && part.is_slow);
         let rest = match slow {
@@ -123,6 +130,19 @@ impl Coupled {
         Layout::new(&split.parts, slow.map(|part| part.first))
             .fill(spectrum, &principal, &split, duration);
         Ok(())
+    }
+
+    /// Whether nothing gives or takes energy: the stiffness is symmetric, and velocities are coupled
+    /// by a skew matrix alone, both to rounding.
+    fn is_conservative(&self) -> bool {
+        let n = self.stiffness.nrows();
+        let (k, c) = (&self.stiffness, &self.damping);
+        let [most_k, most_c] = [k, c].map(|matrix| ROUNDING * matrix.norm_max());
+        (0..n).all(|i| {
+            (0..=i).all(|j| {
+                (k[(i, j)] - k[(j, i)]).abs() <= most_k && (c[(i, j)] + c[(j, i)]).abs() <= most_c
+            })
+        })
     }
 
     /// The position at rest under constant forces; `None` where some motion that they push has no

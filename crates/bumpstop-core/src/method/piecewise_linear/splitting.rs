@@ -60,6 +60,23 @@ struct Sets {
     slow: f64,
 }
 
+/// Part of an exponent that rounding may make of nothing.
+const NOTHING: f64 = 1e-11;
+
+impl Split {
+    /// Takes growth and decay away that are rounding: where energy is conserved, the exponents of
+    /// oscillations have no real part, and over ten thousand impacts that of rounding would be felt.
+    pub(crate) fn keep_energy(&mut self) {
+        for part in &mut self.parts {
+            let is_alone = part.generator.nrows() == 1;
+            let lambda = &mut part.generator[(0, 0)];
+            if is_alone && lambda.re.abs() < NOTHING * lambda.im.abs() {
+                lambda.re = 0.0;
+            }
+        }
+    }
+}
+
 /// Splits a real matrix; exponents below `slow` belong together.
 pub(crate) fn split(matrix: &Mat<f64>, slow: f64) -> Result<Split> {
     let mut sets = Sets::new(matrix, slow)?;

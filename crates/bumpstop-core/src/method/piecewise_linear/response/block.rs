@@ -264,6 +264,9 @@ fn shifted(generator: &Mat<c64>, s: Complex<f64>) -> Mat<c64> {
 fn resolvent(generator: &Mat<c64>, s: Complex<f64>) -> f64 {
     let count = generator.nrows();
     let away = shifted(generator, s);
+    if count == 1 {
+        return 1.0 / complex(away[(0, 0)]).norm();
+    }
     let inverse = away.full_piv_lu().solve(Mat::<c64>::identity(count, count));
     let size = inverse.norm_l2();
     if size.is_finite() {
