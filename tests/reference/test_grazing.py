@@ -149,6 +149,45 @@ def test_the_force_of_a_damped_wall_just_vanishes_below_it(depth: float) -> None
         assert result.same_events
 
 
+def thrown_back(depth: float) -> SeveralStops:
+    """Return two equal modes that a preloaded stop throws back, just after another is touched.
+
+    Along the preloaded stop's row (0.6, 0.8) they move as one mass on its spring, across as one on
+    none; equal modes have no eigenvectors of their own once both stops push.
+    """
+    stiffness, mode = 1e4, 1.0
+    push, touch = np.array([0.6, 0.8]), np.array([1.0, 0.0])
+    across = np.array([-0.8, 0.6])
+    velocity = np.array([-1.0, -0.5])
+    rate = np.sqrt(stiffness + mode)
+
+    def path(time: float, derivative: int) -> float:
+        turn = rate * time + derivative * np.pi / 2
+        still = stiffness / rate**2 * (float(derivative == 0) - np.cos(turn) * rate**derivative)
+        along = still + velocity @ push * np.sin(turn) * rate ** (derivative - 1)
+        beside = velocity @ across * np.sin(time + derivative * np.pi / 2)
+        return float(along * (push @ touch) + beside * (across @ touch))
+
+    turn = brentq(lambda time: path(time, 1), 0.0, 1e-3, xtol=1e-18)
+    return SeveralStops(
+        omega2=np.full(2, mode),
+        damping=np.zeros(2),
+        stops=(Stop(push, -1.0, stiffness), Stop(touch, -path(turn, 0) - depth, mode)),
+        duration=1e-3,
+        displacement=np.zeros(2),
+        velocity=velocity,
+    )
+
+
+@pytest.mark.parametrize("depth", [1e-6, 1e-8, 1e-10, 1e-12, -1e-12])
+def test_equal_modes_leave_a_stop_as_soon_as_they_have_touched_it(depth: float) -> None:
+    verdict = compare(problem := thrown_back(depth))
+    assert verdict.events == 2 * (depth > 0)
+    assert verdict.difference is None
+    assert verdict.error < EXACT
+    assert problem.solve().event_count == 2 * (depth > 0)
+
+
 def touched(seed: int, depth: float) -> SeveralStops:
     """Return flexible modes among stops, and one stop more where their motion turns back."""
     problem = random_several(seed)

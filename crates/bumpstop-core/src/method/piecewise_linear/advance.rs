@@ -437,14 +437,16 @@ impl Walk {
             return Sight::AtOnce;
         }
         let mut jet = Jet {
-            value: 0.0,
-            slope,
             curvature: seen.first_curvature,
             third: seen.jets.third,
             rest: seen.jets.rest,
             rounding: seen.jets.rounding,
+            ..Jet::default()
         };
         signal.add_clusters_after(phases, phase, cell.left, cell.width, &mut jet);
+        // The whole guard's, so that the clusters' parts must not come on top: a slope too large
+        // would prove a departure that is none.
+        (jet.value, jet.slope) = (0.0, slope);
         if jet.departs(cell.width) {
             Sight::Clear
         } else {
