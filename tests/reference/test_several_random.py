@@ -49,3 +49,14 @@ def test_random_problem_of_springs_of_several_slopes(seed: int) -> None:
 @pytest.mark.parametrize("seed", [2, 4, 9, 15, 17, 26, 29, 41, 1184, 1192])
 def test_random_problem_of_rigid_stops(seed: int) -> None:
     check(random_rigid(seed))
+
+
+def test_a_stop_that_is_left_with_a_cluster_of_exponents_is_touched_again() -> None:
+    # Rest on other stops leaves two exponents together, which see the stop that is left.
+    check(random_rigid(0))
+
+
+@pytest.mark.parametrize("seed", [59, 1132, 1172])
+def test_what_a_mode_beside_a_cluster_dissipates_counts_once(seed: int) -> None:
+    # No stop sees one of the modes, and where the structure rests others make a cluster.
+    check(random_rigid(seed))

@@ -44,9 +44,11 @@ impl Form {
             .iter()
             .zip(factors)
             .filter(|(_, factor)| **factor != 0.0);
+        // Single motions, whose exponents stand behind, have dissipations of their own.
+        let coupled = ..spectrum.coupled_width;
         Self::Quadrature(
             dampers
-                .map(|(row, factor)| (row.to_vec(), *factor))
+                .map(|(row, factor)| (row[coupled].to_vec(), *factor))
                 .collect(),
         )
     }
