@@ -163,6 +163,9 @@ impl Walk {
         let mut level = self.prepare::<I>(&path);
         let mut time = path.from;
         while time < path.limit {
+            if time > path.from {
+                self.anchor::<I>(path.spectrum(), time);
+            }
             let width = self.tables.width(level);
             self.look::<I>(&path, time, level, certificate);
             match self.judge::<I>(&path, time, level) {
@@ -179,9 +182,6 @@ impl Walk {
                     certificate.cells += cell + 1;
                     level += 1;
                 }
-            }
-            if time > path.from {
-                self.anchor::<I>(path.spectrum(), time);
             }
         }
         None

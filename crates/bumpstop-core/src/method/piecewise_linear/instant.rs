@@ -84,6 +84,10 @@ pub(crate) fn rates<L: Law>(
     Some([of_order(1), of_order(2)])
 }
 
+/// Numbers that take no memory from the heap: to ask for it takes as long as the sums of a few
+/// modes.
+const SMALL: usize = 128;
+
 /// The local motion of one law, all laws but `without` acting.
 fn local_motion<L: Law>(
     problem: &Problem<L>,
@@ -94,7 +98,13 @@ fn local_motion<L: Law>(
 ) -> LocalMotion {
     let (q, v) = (moment.displacement, moment.velocity);
     let modes = q.len();
-    let mut room = vec![0.0; 4 * modes];
+    let (mut small, mut large) = ([0.0; SMALL], Vec::new());
+    let room = if 4 * modes <= SMALL {
+        &mut small[..4 * modes]
+    } else {
+        large.resize(4 * modes, 0.0);
+        &mut large[..]
+    };
     let (first, second) = room.split_at_mut(2 * modes);
     let (mut accelerations, mut jerks) = (Sums::new(first), Sums::new(second));
     let forcing = &problem.forcing;
@@ -189,9 +199,13 @@ impl<'a> Sums<'a> {
     /// What the structure does to the modes: the motion and its rate, or those of a higher order.
     fn add_structure(&mut self, system: &ModalSystem, x: &[f64], rate: &[f64]) {
         let (omega2, damping) = (system.omega2(), system.damping());
-        for (mode, (x, rate)) in x.iter().zip(rate).enumerate() {
-            self.add_to(mode, -omega2[mode] * x);
-            self.add_to(mode, -damping[mode] * rate);
+        let sums = self.values.iter_mut().zip(&mut *self.sizes);
+        let motion = x.iter().zip(rate).zip(omega2.iter().zip(damping));
+        for ((value, size), ((x, rate), (omega2, damping))) in sums.zip(motion) {
+            for part in [-omega2 * x, -damping * rate] {
+                *value += part;
+                *size += part.abs();
+            }
         }
         for (matrix, motion) in [(system.coupling(), rate), (system.circulatory(), x)] {
             if let Some(matrix) = matrix {

@@ -1,6 +1,6 @@
 //! Complex numbers in whole lanes.
 
-use crate::number::{Block, Complex, Instructions, LANES, Lanes};
+use crate::number::{Block, Complex, Instructions, LANES, Lanes, Number};
 use std::slice::{ChunksExact, ChunksExactMut};
 
 /// Eight complex numbers side by side.
@@ -69,6 +69,12 @@ pub(crate) fn set_entry(row: &mut [ComplexBlock], column: usize, value: Complex<
     block.im[column % LANES] = value.im;
 }
 
+/// One number of a block in all lanes.
+#[inline(always)]
+pub(crate) fn spread<I: Instructions>(block: &ComplexBlock, lane: usize) -> Complex<Lanes<I>> {
+    Complex::new(Lanes::of(block.re[lane]), Lanes::of(block.im[lane]))
+}
+
 /// Rows of equal length.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rows {
@@ -88,6 +94,13 @@ impl Rows {
     #[inline(always)]
     pub(crate) fn reset(&mut self, rows: usize, width: usize) {
         self.blocks.clear();
+        self.blocks.resize(rows * width, ComplexBlock::ZERO);
+        self.width = width;
+    }
+
+    /// Takes another size; entries are whatever they were.
+    #[inline(always)]
+    pub(crate) fn fit(&mut self, rows: usize, width: usize) {
         self.blocks.resize(rows * width, ComplexBlock::ZERO);
         self.width = width;
     }

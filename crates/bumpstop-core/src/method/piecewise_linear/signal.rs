@@ -7,7 +7,7 @@ use super::jet::{Jet, Jets};
 use super::phase::{Phase, Phases};
 use super::polynomial::Polynomial;
 use super::product::{Factor, Other, grown};
-use super::rows::{ComplexBlock, RealBlock, entry, set_entry};
+use super::rows::{ComplexBlock, RealBlock, entry, set_entry, spread};
 use super::spectrum::Spectrum;
 use super::tables::CELLS;
 use super::view::View;
@@ -50,6 +50,12 @@ impl Terms {
         of: [ComplexBlock::ZERO; 3],
         size: RealBlock::ZERO,
     };
+
+    /// The terms that are not zero, one bit a lane.
+    #[inline(always)]
+    fn live<I: Instructions>(&self) -> u8 {
+        !self.size.lanes::<I>().less(Lanes::of(f64::MIN_POSITIVE))
+    }
 }
 
 /// `g(t) = polynomial + Re sum b_j exp(lambda_j t) + specials`.
@@ -423,15 +429,65 @@ impl Signal {
         values
     }
 
-    /// Value, slope or curvature, by the order, `t` after the start of the phase.
+    /// Adds value, slope or curvature, by the order, at up to eight times after the start of the
+    /// phase to a list: with a time a lane where that takes fewer exponentials than an exponent a
+    /// lane. Both add up in the same order, so that no value depends on the other times.
     #[inline(always)]
-    pub(crate) fn at<I: Instructions>(
+    pub(crate) fn sample<I: Instructions>(
         &self,
         order: usize,
         phases: &Phases,
         phase: Phase,
-        t: f64,
-    ) -> f64 {
+        times: &[f64],
+        samples: &mut Vec<f64>,
+    ) {
+        let mut live = 0;
+        for terms in &self.terms {
+            live += terms.live::<I>().count_ones() as usize;
+        }
+        if live >= times.len() * self.terms.len() {
+            for time in times {
+                samples.push(self.at::<I>(order, phases, phase, *time));
+            }
+            return;
+        }
+        let mut lanes = [0.0; LANES];
+        lanes[..times.len()].copy_from_slice(times);
+        let sums = self.exponentials_over::<I>(order, phases, phase, Lanes::new(lanes));
+        for (time, sum) in times.iter().zip(sums.numbers()) {
+            let mut values = [0.0; 3];
+            self.add_others(phases, phase, *time, &mut values);
+            samples.push(sum + values[order]);
+        }
+    }
+
+    /// The sum of the exponentials at eight times, each as [`Signal::at`] gives it.
+    #[inline(always)]
+    fn exponentials_over<I: Instructions>(
+        &self,
+        order: usize,
+        phases: &Phases,
+        phase: Phase,
+        times: Lanes<I>,
+    ) -> Lanes<I> {
+        let mut sums = [Lanes::<I>::of(0.0); LANES];
+        let exponents = &phases.spectra[phase.spectrum].lambda;
+        for (terms, lambda) in self.terms.iter().zip(exponents) {
+            let mut live = terms.live::<I>();
+            while live != 0 {
+                let lane = live.trailing_zeros() as usize;
+                live &= live - 1;
+                let exponential = spread::<I>(lambda, lane).scale(times).exp();
+                let factor = spread(&terms.of[order], lane);
+                sums[lane] = factor.add_real_product(exponential, sums[lane]);
+            }
+        }
+        Lanes::across(sums)
+    }
+
+    /// Value, slope or curvature, by the order, `t` after the start of the phase.
+    #[inline(always)]
+    fn at<I: Instructions>(&self, order: usize, phases: &Phases, phase: Phase, t: f64) -> f64 {
         let time = Lanes::<I>::of(t);
         let mut sum = Lanes::<I>::of(0.0);
         let exponents = &phases.spectra[phase.spectrum].lambda;

@@ -267,14 +267,19 @@ impl Spectrum {
         self.vectors.numbers() + weights + response + clusters
     }
 
-    /// Makes room for the vectors of the coupled groups, `width` blocks of exponents.
+    /// Makes room for the vectors of the coupled groups, `width` blocks of exponents, all zero.
     pub(crate) fn make_room(&mut self, width: usize) {
+        self.make_room_for_exponents(width);
+        self.vectors.reset(3 * self.groups, width);
+    }
+
+    #[inline(always)]
+    fn make_room_for_exponents(&mut self, width: usize) {
         self.coupled_width = width;
         // Singles may add exponents behind.
         self.lambda.clear();
         self.lambda.reserve_exact(width + 1);
         self.lambda.resize(width, ComplexBlock::ZERO);
-        self.vectors.reset(3 * self.groups, width);
     }
 
     /// The shapes of all groups: see [`Spectrum::shape`].
@@ -318,7 +323,9 @@ impl Spectrum {
         if !coupling.is_lightly_damped() {
             return false;
         }
-        self.make_room(self.groups.div_ceil(LANES));
+        self.make_room_for_exponents(self.groups.div_ceil(LANES));
+        // All of them are set below.
+        self.vectors.fit(3 * self.groups, self.coupled_width);
         for block in 0..self.coupled_width {
             let lambda = coupling.solve_block::<I>(block, &mut self.vectors);
             let Some(lambda) = lambda else {

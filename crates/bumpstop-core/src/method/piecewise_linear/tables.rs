@@ -1,6 +1,6 @@
 //! Exponentials at the middles of eight consecutive cells, kept for a whole run.
 
-use super::rows::{ComplexBlock, RealBlock};
+use super::rows::{ComplexBlock, RealBlock, spread};
 use super::spectrum::Spectrum;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
@@ -149,12 +149,6 @@ fn middles_of<I: Instructions>(powers: &[ComplexBlock; 4], lane: usize) -> Compl
         one,
     );
     pairs * fours * eights
-}
-
-/// One number of a block in all lanes.
-#[inline(always)]
-fn spread<I: Instructions>(block: &ComplexBlock, lane: usize) -> Complex<Lanes<I>> {
-    Complex::new(Lanes::of(block.re[lane]), Lanes::of(block.im[lane]))
 }
 
 /// `yes` in the lanes where `sign` is negative.

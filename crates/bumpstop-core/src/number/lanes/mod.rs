@@ -111,6 +111,12 @@ impl<I: Instructions> Lanes<I> {
         plain::total(&self.numbers())
     }
 
+    /// The sum of eight vectors, in each lane in the order of [`Lanes::total`].
+    #[inline(always)]
+    pub fn across(x: [Self; LANES]) -> Self {
+        ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
+    }
+
     /// The sums of eight vectors, each as [`Lanes::total`] gives it.
     #[inline(always)]
     pub fn totals(x: [Self; LANES]) -> [f64; LANES] {
