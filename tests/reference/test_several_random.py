@@ -30,6 +30,12 @@ def test_random_problem_of_coupled_modes(seed: int) -> None:
     check(random_coupled(seed))
 
 
+@pytest.mark.parametrize("seed", [11, 12, 59, 64, 70, 78])
+def test_a_place_that_damped_rigid_modes_keep_counts_in_the_walk(seed: int) -> None:
+    # Rigid modes that dampers couple have an exponent of zero: a constant part of the motion.
+    check(random_coupled(seed))
+
+
 @pytest.mark.parametrize("seed", [0, 1, 2, 4, 5, 6, 7, 8, 9, 10])
 def test_random_problem_of_a_stop_only_just_touched(seed: int) -> None:
     check(random_grazing(seed))

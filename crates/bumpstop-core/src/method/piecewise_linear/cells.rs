@@ -44,13 +44,14 @@ impl Cells<'_> {
         moved: &mut Vec<Moved>,
     ) -> Seen {
         let mut seen = Seen::default();
-        self.bound::<I>(signal, phases, phase, moved, &mut seen);
-        self.follow::<I>(signal, phases, phase, moved, &mut seen.jets);
+        let constant = self.bound::<I>(signal, phases, phase, moved, &mut seen);
+        self.follow::<I>(signal, phases, phase, moved, constant, &mut seen.jets);
         seen.clear = seen.jets.clear::<I>(0.5 * self.level.width);
         seen
     }
 
-    /// Carries the terms to the left end, and bounds over all cells what is not followed.
+    /// Carries the terms to the left end, and bounds over all cells what is not followed. Returns
+    /// what exponents of zero add up to: a level does not tell them from padding.
     #[inline(always)]
     fn bound<I: Instructions>(
         &self,
@@ -59,11 +60,12 @@ impl Cells<'_> {
         phase: Phase,
         moved: &mut Vec<Moved>,
         seen: &mut Seen,
-    ) {
+    ) -> f64 {
         let moduli = &phases.spectra[phase.spectrum].moduli;
         let limit = Lanes::<I>::of(self.level.limit);
         let zero = Lanes::<I>::of(0.0);
-        let (mut third, mut curvature) = (zero, zero);
+        let tiny = Lanes::<I>::of(f64::MIN_POSITIVE);
+        let (mut third, mut curvature, mut constant) = (zero, zero, zero);
         let mut rest = [zero; 3];
         moved.resize(moduli.len(), [ComplexBlock::ZERO; 3]);
         for (b, moved) in moved.iter_mut().enumerate() {
@@ -79,13 +81,14 @@ impl Cells<'_> {
             let slow = modulus.select_less(limit, size, zero);
             let fast = size - slow;
             curvature += modulus.select_less(limit, moved[2].lanes::<I>().re, zero);
+            constant += modulus.select_less(tiny, moved[0].lanes::<I>().re, zero);
             rest[0] += fast;
             rest[1] = fast.mul_add(modulus, rest[1]);
             rest[2] = fast.mul_add(modulus2, rest[2]);
             third = (slow * modulus).mul_add(modulus2, third);
         }
         let totals = Lanes::totals([
-            third, rest[0], rest[1], rest[2], curvature, zero, zero, zero,
+            third, rest[0], rest[1], rest[2], curvature, constant, zero, zero,
         ]);
         let last = self.last();
         seen.jets.third = totals[0] + signal.slow_third(last);
@@ -94,6 +97,7 @@ impl Cells<'_> {
         let mut first = [0.0; 3];
         signal.add_slow(phases, phase, self.time, &mut first);
         seen.first_curvature = totals[4] + first[2];
+        totals[5]
     }
 
     /// Value, slope and curvature of what is followed, at the middles of the cells.
@@ -104,6 +108,7 @@ impl Cells<'_> {
         phases: &Phases,
         phase: Phase,
         moved: &[Moved],
+        constant: f64,
         jets: &mut Jets,
     ) {
         let zero = Lanes::<I>::of(0.0);
@@ -117,7 +122,7 @@ impl Cells<'_> {
             }
         }
         let slow = signal.slow_over::<I>(phases, phase, self.middles());
-        (re[0] - im[0] + slow[0]).to_block(&mut jets.values);
+        (re[0] - im[0] + (slow[0] + Lanes::of(constant))).to_block(&mut jets.values);
         (re[1] - im[1] + slow[1]).to_block(&mut jets.slopes);
         (re[2] - im[2] + slow[2]).to_block(&mut jets.curvatures);
         signal.add_clusters(phases, phase, self.time, self.level.width, jets);

@@ -113,7 +113,7 @@ impl Level {
                 block.put(power);
             }
             for lane in 0..LANES {
-                // Padding has modulus zero.
+                // Padding has modulus zero, and exponents of zero are constants.
                 if moduli.0[lane] > 0.0 && moduli.0[lane] < self.limit {
                     let mut middles = ComplexBlock::ZERO;
                     middles.put(middles_of::<I>(&powers, lane));
