@@ -19,13 +19,15 @@ from benchmarks.several.contacts import Contacts, Finder, missed
 from benchmarks.several.cvode import Cvode
 from benchmarks.several.exact import Effort, Exact
 from benchmarks.several.numba_loop import NumbaLoop
-from benchmarks.several.problems import FUNDAMENTAL, brief_touch, line
+from benchmarks.several.problems import FUNDAMENTAL, brief_touch, bundle, line
 from benchmarks.several.scipy_events import ScipyEvents
 from benchmarks.several.truth import truth_of
 
 MODES = (10, 50, 200)
 STOPS = (1, 4, 16)
 LASTING_PERIODS = 60.0
+TUBES = (1, 4, 16, 64)
+TUBE_MODES = 10
 WINDOW = 0.01 / FUNDAMENTAL  # s; a contact that is later or earlier by more is another one
 DEPTHS = (1e-3, 1e-4)
 BRIEF_PROBLEMS = 60
@@ -58,6 +60,15 @@ def growth(modes: Sequence[int], stops: Sequence[int], runs: int) -> None:
         for m in (m for m in stops if m <= 4):
             problem = line(n, m, damping_ratio=0.0, periods=LASTING_PERIODS)
             print(row(n, m, Exact().effort(problem, 1)), flush=True)
+
+
+def bundles(tubes: Sequence[int], runs: int) -> None:
+    """Print what an event costs in structures side by side that know nothing of each other."""
+    print(f"\nLines of {TUBE_MODES} modes side by side, a stop each; modes of all together")
+    print(f"{'modes':>6}{'stops':>6}{'events':>8}{'cells':>8}{'sets':>6}", end="")
+    print(f"{'time ms':>12}{'us/event':>12}{'us/cell':>10}")
+    for m in tubes:
+        print(row(m * TUBE_MODES, m, Exact().effort(bundle(m, TUBE_MODES), runs)), flush=True)
 
 
 def solver(name: str, found: Contacts, true: Contacts) -> str:
@@ -126,6 +137,7 @@ def main() -> int:
     start = perf_counter()
     modes, stops = (MODES[:2], STOPS[:2]) if quick else (MODES, STOPS)
     growth(modes, stops, runs=3 if quick else 11)
+    bundles(TUBES[:3] if quick else TUBES, runs=3)
     wrong = beside_others(modes, stops)
     wrong += brief_touches(10 if quick else BRIEF_PROBLEMS)
     print(f"\n{'PASS' if wrong == 0 else 'MISS'}  contacts that we missed or made up: {wrong}")

@@ -42,6 +42,22 @@ def line(
     return problem.but(stops=tuple(Stop(row, float(gap), STOP_STIFFNESS) for row, gap in placed))
 
 
+def bundle(tubes: int, modes: int) -> SeveralStops:
+    """Return equal lines side by side, each with a stop of its own and a start of its own."""
+    one = line(modes, 1)
+    stop = one.stops[0]
+    speeds: Array = np.random.default_rng(5).uniform(0.7, 1.3, tubes)
+    rows = np.kron(np.eye(tubes), stop.row)
+    return SeveralStops(
+        omega2=np.tile(one.omega2, tubes),
+        damping=np.tile(one.damping, tubes),
+        stops=tuple(Stop(row, stop.gap, stop.stiffness) for row in rows),
+        duration=one.duration,
+        displacement=np.zeros(tubes * modes),
+        velocity=np.outer(speeds, one.velocity).ravel(),
+    )
+
+
 def free_motion(problem: SeveralStops, times: Array) -> Array:
     """Return what velocities at the start make of underdamped modes, (time, mode)."""
     decay = problem.damping / 2

@@ -1,5 +1,6 @@
 //! The equations of the modes that laws and matrices of the structure couple.
 
+use super::partition::Groups;
 use super::secular::Coupling;
 use crate::law::{COORDINATES, Law, Local, Piece, State};
 use crate::number::Complex;
@@ -49,37 +50,38 @@ fn pieces<'a, L: Law>(
 }
 
 /// Whether a force along some coordinate depends on this one.
-fn is_felt(piece: &Piece, coordinate: usize) -> bool {
+pub(super) fn is_felt(piece: &Piece, coordinate: usize) -> bool {
     (piece.stiffness.iter().chain(&piece.damping)).any(|row| row[coordinate] != 0.0)
 }
 
 impl Coupled {
-    /// The equations of some modes with the laws in the given states.
-    pub(crate) fn of_modes<L: Law>(
+    /// The equations of some groups with the laws in the given states.
+    pub(crate) fn of_groups<L: Law>(
         problem: &Problem<L>,
         states: &[State],
-        modes: &[usize],
+        groups: &Groups,
     ) -> Self {
-        let (system, forces) = (&problem.system, problem.forcing.forces());
-        let n = modes.len();
-        let diagonal =
-            |values: &[f64], r: usize, c: usize| if r == c { values[modes[r]] } else { 0.0 };
-        let entry = |own: &[f64], matrix: Option<&crate::system::Coupling>, r: usize, c: usize| {
-            diagonal(own, r, c) + matrix.map_or(0.0, |matrix| matrix.at(modes[r], modes[c]))
-        };
+        let system = &problem.system;
+        let force = groups.row(problem.forcing.forces());
         let mut coupled = Self {
-            stiffness: Mat::from_fn(n, n, |r, c| {
-                entry(system.omega2(), system.circulatory(), r, c)
-            }),
-            damping: Mat::from_fn(n, n, |r, c| {
-                entry(system.damping(), system.coupling(), r, c)
-            }),
-            force: Mat::from_fn(n, 1, |r, _| forces[modes[r]]),
+            stiffness: diagonal(&groups.omega2),
+            damping: diagonal(&groups.damping),
+            force: Mat::from_fn(groups.len(), 1, |r, _| force[r]),
         };
+        let matrices = [
+            (system.circulatory(), &mut coupled.stiffness),
+            (system.coupling(), &mut coupled.damping),
+        ];
+        for (matrix, to) in matrices {
+            if let Some(matrix) = matrix {
+                add_matrix(to, groups, matrix);
+            }
+        }
         for (law, piece) in pieces(problem, states) {
-            let rows: Vec<Vec<f64>> = (law.rows().iter())
-                .map(|row| modes.iter().map(|&mode| row[mode]).collect())
-                .collect();
+            let rows: Vec<Vec<f64>> = law.rows().iter().map(|row| groups.row(row)).collect();
+            if rows.iter().flatten().all(|factor| *factor == 0.0) {
+                continue;
+            }
             add_product(&mut coupled.stiffness, &rows, &piece.stiffness);
             add_product(&mut coupled.damping, &rows, &piece.damping);
             for (row, constant) in rows.iter().zip(piece.constant) {
@@ -129,6 +131,21 @@ impl Coupled {
         (0..n)
             .map(|i| Complex::new(solution[(i, 0)].re, solution[(i, 0)].im))
             .collect()
+    }
+}
+
+fn diagonal(values: &[f64]) -> Mat<f64> {
+    let n = values.len();
+    Mat::from_fn(n, n, |r, c| if r == c { values[r] } else { 0.0 })
+}
+
+/// Adds a matrix of the structure as the groups see it.
+fn add_matrix(to: &mut Mat<f64>, groups: &Groups, matrix: &crate::system::Coupling) {
+    for row in &groups.members {
+        for column in &groups.members {
+            let weight = row.weight * column.weight;
+            to[(row.group, column.group)] += weight * matrix.at(row.mode, column.mode);
+        }
     }
 }
 

@@ -4,10 +4,11 @@
 use super::cluster::{Cluster, Drive, complex};
 use super::coupled::{Coupled, coupled_modes};
 use super::held::Left;
+use super::partition::Groups;
 use super::principal::Principal;
 use super::rows::set_entry;
 use super::secular::Coupling;
-use super::spectrum::{Member, Spectrum};
+use super::spectrum::Spectrum;
 use super::splitting::{Part, Split, split};
 use crate::error::Result;
 use crate::law::{Law, Piece, State};
@@ -16,40 +17,29 @@ use crate::problem::Problem;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-/// Couples the modes that laws push together and those that matrices of the structure couple.
+/// Couples groups that laws push together and that matrices of the structure couple.
 pub(crate) fn couple<L: Law>(
     spectrum: &mut Spectrum,
     problem: &Problem<L>,
     states: &[State],
+    groups: &Groups,
 ) -> Result<()> {
-    let modes = coupled_modes(problem, states);
-    let coupled = Coupled::of_modes(problem, states, &modes);
-    if let Some(left) = Left::of(problem, states, &modes) {
-        return couple_left(spectrum, problem, states, left, &coupled);
-    }
-    spectrum.members = (modes.iter().enumerate())
-        .map(|(group, &mode)| Member {
-            mode,
-            group,
-            weight: 1.0,
-        })
-        .collect();
-    spectrum.groups = modes.len();
-    spectrum.combinations = modes.len();
-    let damping = problem.system.damping();
-    spectrum.group_damping = modes.iter().map(|&mode| damping[mode]).collect();
-    coupled.solve_into(spectrum, problem.duration)
+    spectrum.members.clone_from(&groups.members);
+    spectrum.groups = groups.len();
+    spectrum.combinations = groups.len();
+    spectrum.group_damping.clone_from(&groups.damping);
+    Coupled::of_groups(problem, states, groups).solve_into(spectrum, problem.duration)
 }
 
 /// Couples the motions that laws leave to the modes whose local coordinates they hold.
-fn couple_left<L: Law>(
+pub(crate) fn couple_left<L: Law>(
     spectrum: &mut Spectrum,
     problem: &Problem<L>,
     states: &[State],
     left: Left,
-    coupled: &Coupled,
+    groups: &Groups,
 ) -> Result<()> {
-    let reduced = left.reduce(coupled);
+    let reduced = left.reduce(&Coupled::of_groups(problem, states, groups));
     spectrum.members = left.members();
     spectrum.held = Some(Box::new(left.held));
     let count = reduced.force.nrows();
@@ -70,13 +60,17 @@ fn couple_left<L: Law>(
 }
 
 /// The equations of the coupled groups of a spectrum.
-pub(crate) fn equations<L: Law>(problem: &Problem<L>, states: &[State]) -> Coupled {
-    let modes = coupled_modes(problem, states);
-    let coupled = Coupled::of_modes(problem, states, &modes);
-    match Left::of(problem, states, &modes) {
-        Some(left) => left.reduce(&coupled),
-        None => coupled,
+pub(crate) fn equations<L: Law>(problem: &Problem<L>, spectrum: &Spectrum) -> Coupled {
+    let (states, system) = (&spectrum.states, &problem.system);
+    if spectrum.held.is_some() {
+        let modes = coupled_modes(problem, states);
+        let coupled = Coupled::of_groups(problem, states, &Groups::of_modes(system, &modes));
+        return match Left::of(problem, states, &modes) {
+            Some(left) => left.reduce(&coupled),
+            None => coupled,
+        };
     }
+    Coupled::of_groups(problem, states, &Groups::of_spectrum(system, spectrum))
 }
 
 /// Spectrum of one law whose modes are too heavily damped for the secular path, or have no
@@ -104,7 +98,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Times the length of the run, the size below which an exponent is slow: a position at rest
 /// under a constant force would be so far away that digits were lost.
-const SLOW: f64 = 0.7;
+pub(super) const SLOW: f64 = 0.7;
 
 impl Coupled {
     /// Exponents, clusters, shapes, left vectors and the position at rest.
@@ -218,20 +212,23 @@ impl<'a> Layout<'a> {
     }
 
     fn fill(&self, spectrum: &mut Spectrum, principal: &Principal, split: &Split, duration: f64) {
-        spectrum.make_room(self.columns.div_ceil(LANES));
+        let groups = spectrum.groups;
+        let (exponents, vectors) = spectrum.make_room(self.columns.div_ceil(LANES));
+        vectors.clear();
         let shapes = principal.positions(&split.right);
         let (position, velocity) = principal.left(&split.left);
+        let mut clusters = Vec::new();
         for &(part, at) in &self.parts {
             let factor = if part.is_real { 1.0 } else { 2.0 };
             let count = part.generator.nrows();
             for c in 0..count {
                 let (column, from) = (at + c, part.first + c);
-                set_entry(&mut spectrum.lambda, column, mean(&part.generator));
-                for g in 0..spectrum.groups {
+                set_entry(exponents, column, mean(&part.generator));
+                for g in 0..groups {
                     let left = |rows: &Mat<c64>| complex(rows[(from, g)]).scale(factor);
-                    set_entry(spectrum.shape_mut(g), column, complex(shapes[(g, from)]));
-                    set_entry(spectrum.left_position_mut(g), column, left(&position));
-                    set_entry(spectrum.left_velocity_mut(g), column, left(&velocity));
+                    set_entry(vectors.row_mut(g), column, complex(shapes[(g, from)]));
+                    set_entry(vectors.row_mut(groups + g), column, left(&position));
+                    set_entry(vectors.row_mut(2 * groups + g), column, left(&velocity));
                 }
             }
             if self.driven == Some(part.first) {
@@ -241,13 +238,12 @@ impl<'a> Layout<'a> {
                 let drive = rows * force;
                 let drive = Drive::constant(&drive, &part.generator, duration);
                 let cluster = Cluster::driven(at, &part.generator, drive, duration);
-                spectrum.clusters.push(cluster);
+                clusters.push(cluster);
             } else if count > 1 {
-                spectrum
-                    .clusters
-                    .push(Cluster::new(at, &part.generator, duration));
+                clusters.push(Cluster::new(at, &part.generator, duration));
             }
         }
+        spectrum.clusters = clusters;
     }
 }
 

@@ -8,21 +8,32 @@
 //! K_jk = s_j s_k / (2 (lambda_j + lambda_k)),  L_jk = s_j conj(s_k) / (2 (lambda_j + conj lambda_k)).
 //! ```
 
+use super::cluster::Cluster;
 use super::phase::{Phase, Phases, Workspace};
 use super::quadrature::integral;
 use super::rows::{ComplexBlock, Rows, entry};
 use super::single_mode::Rates;
-use super::spectrum::{Single, Spectrum};
+use super::singles::Single;
+use super::spectrum::Spectrum;
 use super::view::View;
 use super::works::{Powers, Works, damper};
 use crate::law::Law;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
+use std::borrow::Cow;
 use std::cell::OnceCell;
+use std::ops::Range;
 
-/// Squares of coupled rates.
+/// Squares of the rates of coupled exponents that lie together.
 #[derive(Debug, Clone)]
-enum Form {
+struct Form {
+    /// Where their blocks begin.
+    first_block: usize,
+    squares: Squares,
+}
+
+#[derive(Debug, Clone)]
+enum Squares {
     /// Where every column is an exponent.
     Closed(Primitive),
     /// Where some belong to clusters: dampers as rows of the rates, each with its constant.
@@ -30,27 +41,47 @@ enum Form {
 }
 
 impl Form {
-    /// The form of `sum_g factor_g (Re sum_j row_gj r_j)^2`.
+    /// The form of `sum_g factor_g (Re sum_j row_gj r_j)^2` over some blocks of exponents, which
+    /// the rows are of.
     #[inline(always)]
     fn new<I: Instructions>(
         spectrum: &Spectrum,
+        blocks: Range<usize>,
         rows: &[&[ComplexBlock]],
         factors: &[f64],
     ) -> Self {
-        if spectrum.clusters.is_empty() {
-            return Self::Closed(Primitive::new::<I>(spectrum, rows, factors));
+        let is_clustered = |cluster: &Cluster| blocks.contains(&(cluster.at / LANES));
+        let squares = if spectrum.clusters.iter().any(is_clustered) {
+            let dampers = rows.iter().zip(factors);
+            let dampers = dampers.filter(|(_, factor)| **factor != 0.0);
+            Squares::Quadrature(
+                dampers
+                    .map(|(row, factor)| (row.to_vec(), *factor))
+                    .collect(),
+            )
+        } else {
+            let lambda = &spectrum.lambda[blocks.clone()];
+            Squares::Closed(Primitive::new::<I>(lambda, rows, factors))
+        };
+        Self {
+            first_block: blocks.start,
+            squares,
         }
-        let dampers = rows
-            .iter()
-            .zip(factors)
-            .filter(|(_, factor)| **factor != 0.0);
-        // Single motions, whose exponents stand behind, have dissipations of their own.
-        let coupled = ..spectrum.coupled_width;
-        Self::Quadrature(
-            dampers
-                .map(|(row, factor)| (row[coupled].to_vec(), *factor))
-                .collect(),
-        )
+    }
+
+    /// The same for rows of all exponents.
+    #[inline(always)]
+    fn of_whole_rows<I: Instructions>(
+        spectrum: &Spectrum,
+        rows: &[Cow<'_, [ComplexBlock]>],
+        factors: &[f64],
+    ) -> Self {
+        let is_seen = |block: &usize| rows.iter().any(|row| row[*block] != ComplexBlock::ZERO);
+        let mut seen = (0..spectrum.coupled_width).filter(is_seen);
+        let first = seen.next().unwrap_or(0);
+        let blocks = first..seen.next_back().unwrap_or(first) + 1;
+        let rows: Vec<&[ComplexBlock]> = rows.iter().map(|row| &row[blocks.clone()]).collect();
+        Self::new::<I>(spectrum, blocks, &rows, factors)
     }
 
     /// Its integral from the start of a phase to `t` after it; the workspace holds the rates there.
@@ -62,16 +93,17 @@ impl Form {
         t: f64,
         work: &Workspace,
     ) -> f64 {
-        match self {
-            Self::Closed(form) => {
-                form.value::<I>(&work.rate) - form.value::<I>(&work.rate_at_start)
+        let first = self.first_block;
+        match &self.squares {
+            Squares::Closed(form) => {
+                form.value::<I>(&work.rate[first..]) - form.value::<I>(&work.rate_at_start[first..])
             }
-            Self::Quadrature(dampers) => {
+            Squares::Quadrature(dampers) => {
                 let pace = 2.0 * phases.spectra[phase.spectrum].pace();
                 let power = |work: &Workspace| -> f64 {
                     (dampers.iter())
                         .map(|(row, factor)| {
-                            let rate = real_product(row, &work.rate);
+                            let rate = real_product(row, &work.rate[first..]);
                             factor * rate * rate
                         })
                         .sum()
@@ -107,17 +139,17 @@ impl Primitive {
     /// The form of `sum_g factor_g (Re sum_j row_gj r_j)^2`.
     #[inline(always)]
     fn new<I: Instructions>(
-        spectrum: &Spectrum,
+        lambda: &[ComplexBlock],
         rows: &[&[ComplexBlock]],
         factors: &[f64],
     ) -> Self {
-        let width = spectrum.coupled_width;
+        let width = lambda.len();
         let mut form = Self {
             with: Rows::zeros(width * LANES, width),
             with_conjugate: Rows::zeros(width * LANES, width),
         };
         for j in 0..width * LANES {
-            let own = entry(&spectrum.lambda, j);
+            let own = entry(lambda, j);
             if own.re == 0.0 && own.im == 0.0 {
                 continue;
             }
@@ -132,7 +164,7 @@ impl Primitive {
                     conjugate += mine * other.conj();
                 }
                 let own = Complex::new(Lanes::<I>::of(own.re), Lanes::<I>::of(own.im));
-                let other = spectrum.lambda[b].lanes();
+                let other = lambda[b].lanes();
                 form.with.row_mut(j)[b].put(with * recip_or_zero(own + other));
                 let between = conjugate * recip_or_zero(own + other.conj());
                 form.with_conjugate.row_mut(j)[b].put(between);
@@ -172,7 +204,7 @@ fn recip_or_zero<I: Instructions>(z: Complex<Lanes<I>>) -> Complex<Lanes<I>> {
 /// The forms of one spectrum.
 #[derive(Debug, Clone)]
 pub(crate) struct Dissipation {
-    modal: Option<Form>,
+    modal: Vec<Form>,
     laws: Vec<Option<Form>>,
 }
 
@@ -195,12 +227,11 @@ impl Dissipation {
                 rows.push(views[coordinate].whole(&spectrum.clusters));
                 constants.push(constant);
             }
-            let rows: Vec<&[ComplexBlock]> = rows.iter().map(|row| &row[..]).collect();
             let acts = spectrum.groups > 0 && !rows.is_empty();
-            laws.push(acts.then(|| Form::new::<I>(spectrum, &rows, &constants)));
+            laws.push(acts.then(|| Form::of_whole_rows::<I>(spectrum, &rows, &constants)));
         }
         Self {
-            modal: modal_form::<I, L>(problem, powers, spectrum),
+            modal: modal_forms::<I, L>(problem, powers, spectrum),
             laws,
         }
     }
@@ -219,8 +250,8 @@ impl Dissipation {
         phases.turn::<I>(phase, 0.0, work);
         work.rate_at_start.clone_from(&work.rate);
         phases.turn::<I>(phase, t, work);
-        if let Some(form) = &self.modal {
-            total.modal = form.until::<I>(phases, phase, t, work);
+        for form in &self.modal {
+            total.modal += form.until::<I>(phases, phase, t, work);
         }
         for (law, form) in total.laws.iter_mut().zip(&self.laws) {
             if let Some(form) = form {
@@ -245,28 +276,34 @@ impl Dissipation {
     }
 }
 
-/// The form of the structure's own damping; `None` where the groups are not damped.
+/// The forms of the structure's own damping.
 #[inline(always)]
-fn modal_form<I: Instructions, L: Law>(
+fn modal_forms<I: Instructions, L: Law>(
     problem: &Problem<L>,
     powers: &OnceCell<Powers>,
     spectrum: &Spectrum,
-) -> Option<Form> {
+) -> Vec<Form> {
+    let mut forms = Vec::new();
     if spectrum.groups == 0 {
-        return None;
+        return forms;
     }
     if problem.system.coupling().is_some() || spectrum.held.is_some() {
         let powers = Powers::in_cell(powers, problem);
-        return Some(form_of_dampers::<I>(powers, spectrum));
+        forms.push(form_of_dampers::<I>(powers, spectrum));
+        return forms;
     }
-    if spectrum.group_damping.iter().all(|c| *c == 0.0) {
-        return None;
+    for family in spectrum.families() {
+        let damping = family.own(&spectrum.group_damping);
+        if damping.iter().all(|c| *c == 0.0) {
+            continue;
+        }
+        let mut rows = Vec::with_capacity(family.groups);
+        for group in 0..family.groups {
+            rows.push(family.shape(group));
+        }
+        forms.push(Form::new::<I>(spectrum, family.blocks(), &rows, damping));
     }
-    let mut rows = Vec::with_capacity(spectrum.groups);
-    for group in 0..spectrum.groups {
-        rows.push(spectrum.shape(group));
-    }
-    Some(Form::new::<I>(spectrum, &rows, &spectrum.group_damping))
+    forms
 }
 
 /// The form of the dampers of a structure whose velocities are coupled.
@@ -282,9 +319,8 @@ fn form_of_dampers<I: Instructions>(powers: &Powers, spectrum: &Spectrum) -> For
     let rows: Vec<_> = (views.iter())
         .map(|view| view.whole(&spectrum.clusters))
         .collect();
-    let rows: Vec<&[ComplexBlock]> = rows.iter().map(|row| &row[..]).collect();
     let constants: Vec<f64> = powers.dampers.iter().map(|d| d.constant).collect();
-    Form::new::<I>(spectrum, &rows, &constants)
+    Form::of_whole_rows::<I>(spectrum, &rows, &constants)
 }
 
 /// The rates of a single motion's own exponentials.

@@ -40,17 +40,10 @@ impl Acts {
                 if !piece.acts_along(i) || row.iter().all(|r| *r == 0.0) {
                     continue;
                 }
-                let is_spring = piece.stiffness[i][i] > 0.0 && piece.is_own(i);
-                if !is_spring || !matches!(acts, Self::Nothing) {
-                    return Self::Several;
+                match Acting::spring(index, i, &piece) {
+                    Some(spring) if matches!(acts, Self::Nothing) => acts = Self::One(spring),
+                    _ => return Self::Several,
                 }
-                acts = Self::One(Acting {
-                    law: index,
-                    coordinate: i,
-                    constant: piece.constant[i],
-                    stiffness: piece.stiffness[i][i],
-                    damping: piece.damping[i][i],
-                });
             }
         }
         acts
@@ -58,6 +51,39 @@ impl Acts {
 }
 
 impl Acting {
+    /// The springs that some laws are in their states; `None` where one of them is anything else.
+    pub(crate) fn springs<L: Law>(
+        problem: &Problem<L>,
+        states: &[State],
+        laws: &[usize],
+    ) -> Option<Vec<Self>> {
+        let mut springs = Vec::new();
+        for &number in laws {
+            let law = &problem.laws[number];
+            let piece = law.piece(states[number])?;
+            for (coordinate, row) in law.rows().iter().enumerate().take(COORDINATES) {
+                if piece.acts_along(coordinate) && row.iter().any(|r| *r != 0.0) {
+                    springs.push(Self::spring(number, coordinate, &piece)?);
+                }
+            }
+        }
+        Some(springs)
+    }
+
+    /// The spring and damper along one coordinate; `None` where there is anything else.
+    #[inline(always)]
+    fn spring(law: usize, coordinate: usize, piece: &Piece) -> Option<Self> {
+        let i = coordinate;
+        let is_spring = piece.stiffness[i][i] > 0.0 && piece.is_own(i);
+        is_spring.then_some(Self {
+            law,
+            coordinate,
+            constant: piece.constant[i],
+            stiffness: piece.stiffness[i][i],
+            damping: piece.damping[i][i],
+        })
+    }
+
     /// Its row, which projects modal displacements to the local coordinate.
     #[inline(always)]
     pub(crate) fn row<'a, L: Law>(&self, problem: &'a Problem<L>) -> &'a [f64] {

@@ -17,22 +17,30 @@ mod dense;
 mod dissipation;
 mod enclosure;
 mod event;
+mod family;
 mod grouping;
 mod held;
 mod impedance;
 mod instant;
 mod jet;
+mod one_spring;
+mod partition;
+mod parts;
 mod phase;
+mod poles;
 mod polynomial;
 mod principal;
 mod product;
 mod quadrature;
+mod recent;
 mod record;
 mod response;
 mod rows;
 mod secular;
+mod several;
 mod signal;
 mod single_mode;
+mod singles;
 mod spectrum;
 mod splitting;
 mod tables;
@@ -55,6 +63,7 @@ use curved::{CurvedGuards, Guards};
 use event::Watch;
 use instant::Moment;
 use phase::{Phases, Workspace};
+use recent::Recent;
 use spectrum::{Secular, Spectrum, Workbench};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -78,6 +87,7 @@ pub fn simulate<L: Law>(problem: &Arc<Problem<L>>, observer: Observer<'_>) -> Re
         run: &mut run,
         observer,
     })?;
+    run.scratch.bench.clear();
     SCRATCH.set(Some(run.scratch));
     let blows = run.contacts.blows;
     let record = PhaseRecord::new(run.phases, problem.duration, run.certificate, blows);
@@ -118,6 +128,7 @@ thread_local! {
 struct Run<'a, L> {
     problem: &'a Problem<L>,
     phases: Phases,
+    recent: Recent,
     events: Vec<Event>,
     certificate: Certificate,
     contacts: Contacts,
@@ -129,6 +140,7 @@ impl<'a, L: Law> Run<'a, L> {
         Self {
             problem,
             phases: Phases::empty(),
+            recent: Recent::default(),
             events: Vec::new(),
             certificate: Certificate::default(),
             contacts: Contacts::new(problem),
@@ -322,7 +334,15 @@ impl<'a, L: Law> Run<'a, L> {
         let room = self.phases.spare_spectrum();
         let bench = &mut self.scratch.bench;
         let dense = Spectrum::new::<Plain, L>(self.problem, states, Secular::Skip, bench, room)?;
-        Ok(self.phases.add_spectrum(dense))
+        Ok(self.keep(states, dense))
+    }
+
+    /// Keeps a spectrum; returns its number.
+    #[inline(always)]
+    fn keep(&mut self, states: &[State], spectrum: Box<Spectrum>) -> usize {
+        let number = self.phases.add_spectrum(spectrum);
+        self.recent.keep(states, number);
+        number
     }
 
     /// The number of the spectrum for the given states, the latest one made: one with their
@@ -330,14 +350,13 @@ impl<'a, L: Law> Run<'a, L> {
     #[inline(always)]
     fn spectrum<I: Instructions>(&mut self, states: &[State]) -> Result<usize> {
         let problem = self.problem;
-        let known = (self.phases.spectra.iter()).rposition(|s| s.serves(problem, states));
-        match known {
+        match self.recent.find(problem, states, &self.phases.spectra) {
             Some(known) => Ok(known),
             None => {
                 let room = self.phases.spare_spectrum();
                 let bench = &mut self.scratch.bench;
                 let fresh = Spectrum::new::<I, L>(self.problem, states, Secular::Try, bench, room)?;
-                Ok(self.phases.add_spectrum(fresh))
+                Ok(self.keep(states, fresh))
             }
         }
     }

@@ -4,7 +4,8 @@ use super::cluster::Cluster;
 use super::response::Response;
 use super::rows::{ComplexBlock, entry, set_entry};
 use super::single_mode::Kept;
-use super::spectrum::{Single, Spectrum, Subject};
+use super::singles::{Single, Subject};
+use super::spectrum::Spectrum;
 use crate::error::{Error, Result};
 use crate::forcing::Onset;
 use crate::law::State;
@@ -187,7 +188,7 @@ impl Phases {
         for single in &which.singles {
             let (x0, v0) = match single.subject {
                 Subject::Mode(mode) => (work.own_position[mode], work.own_velocity[mode]),
-                Subject::Combination => (work.position[0], work.velocity[0]),
+                Subject::Combination(number) => (work.position[number], work.velocity[number]),
             };
             self.kept.extend([x0, v0]);
             let amplitudes = single.motion.amplitudes(x0, v0);
@@ -307,8 +308,8 @@ impl Phases {
             let (x, rate) = self.single_motion(phase, index, single, t, work);
             match single.subject {
                 Subject::Mode(mode) => (q[mode], v[mode]) = (x, rate),
-                Subject::Combination => {
-                    (work.position[0], work.velocity[0]) = (x, rate);
+                Subject::Combination(number) => {
+                    (work.position[number], work.velocity[number]) = (x, rate);
                 }
             }
         }

@@ -90,12 +90,9 @@ impl Rows {
         }
     }
 
-    /// Takes another size; all entries become zero.
-    #[inline(always)]
-    pub(crate) fn reset(&mut self, rows: usize, width: usize) {
-        self.blocks.clear();
-        self.blocks.resize(rows * width, ComplexBlock::ZERO);
-        self.width = width;
+    /// Makes all entries zero.
+    pub(crate) fn clear(&mut self) {
+        self.blocks.fill(ComplexBlock::ZERO);
     }
 
     /// Takes another size; entries are whatever they were.

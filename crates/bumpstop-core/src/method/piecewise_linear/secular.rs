@@ -14,6 +14,7 @@
 //! Newton's method on `D_o f` in the complex plane, with the distance from the nearest damped
 //! pole as unknown, so that weakly coupled modes lose no digits.
 
+use super::poles::{Eigenvalue, Nearest};
 use super::rows::Rows;
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 
@@ -106,7 +107,7 @@ impl Coupling {
         }
         let (z_low, z_high) = (k * bracket.phi2_lower, k * bracket.phi2_upper);
         let at_middle = rest + (z_high - z_low) / middle;
-        let origin = Nearest::new(self, bracket, at_middle);
+        let origin = Nearest::beside(self, bracket, at_middle);
         // Distances of the two poles from the present point, here from the origin pole.
         let low = bracket.lower - origin.omega2;
         let high = bracket.upper - origin.omega2;
@@ -327,17 +328,10 @@ impl<I: Instructions> Bracket<I> {
     }
 }
 
-/// The pole nearest to each root.
-#[derive(Clone, Copy)]
-struct Nearest<I: Instructions> {
-    omega2: Lanes<I>,
-    damping: Lanes<I>,
-}
-
 impl<I: Instructions> Nearest<I> {
     /// f increases between poles: positive at the middle means a root in the lower half.
     #[inline(always)]
-    fn new(coupling: &Coupling, bracket: &Bracket<I>, at_middle: Lanes<I>) -> Self {
+    fn beside(coupling: &Coupling, bracket: &Bracket<I>, at_middle: Lanes<I>) -> Self {
         let n = coupling.omega2.len();
         let at_middle = at_middle.numbers();
         let (mut omega2, mut damping) = ([0.0; LANES], [0.0; LANES]);
@@ -352,14 +346,6 @@ impl<I: Instructions> Nearest<I> {
             omega2: Lanes::new(omega2),
             damping: Lanes::new(damping),
         }
-    }
-
-    /// The damped pole itself.
-    #[inline(always)]
-    fn pole(&self) -> Complex<Lanes<I>> {
-        let half = self.damping * Lanes::<I>::of(0.5);
-        let im2 = (self.omega2 - half * half).max(Lanes::<I>::of(0.0));
-        Complex::new(-half, im2.sqrt())
     }
 }
 
@@ -425,52 +411,4 @@ fn middle_way<I: Instructions>(
     let y = present + x;
     let middle = Lanes::<I>::of(0.5) * (a + b);
     a.select_less(y, y.select_less(b, y, middle), middle)
-}
-
-/// Eigenvalues as distances from their nearest poles.
-struct Eigenvalue<I: Instructions> {
-    origin: Nearest<I>,
-    pole: Complex<Lanes<I>>,
-    delta: Complex<Lanes<I>>,
-    value: Complex<Lanes<I>>,
-}
-
-impl<I: Instructions> Eigenvalue<I> {
-    #[inline(always)]
-    fn new(origin: Nearest<I>, pole: Complex<Lanes<I>>) -> Self {
-        Self {
-            origin,
-            pole,
-            delta: Complex::zero(),
-            value: pole,
-        }
-    }
-
-    #[inline(always)]
-    fn set(&mut self, delta: Complex<Lanes<I>>) {
-        self.delta = delta;
-        self.value = self.pole + delta;
-    }
-
-    /// `D_o(s) = delta (2 p_o + c_o + delta)`
-    #[inline(always)]
-    fn own_pole(&self) -> Complex<Lanes<I>> {
-        self.delta * (self.pole + self.value).plus(self.origin.damping)
-    }
-
-    /// `delta (2 p_o + delta)`
-    #[inline(always)]
-    fn near(&self) -> Complex<Lanes<I>> {
-        self.delta * (self.pole + self.value)
-    }
-
-    /// `D_i(s) = (w_i^2 - w_o^2) + (c_i - c_o) p_o + delta (2 p_o + c_i + delta)`
-    #[inline(always)]
-    fn pole(&self, near: Complex<Lanes<I>>, omega2: f64, damping: f64) -> Complex<Lanes<I>> {
-        let damping = Lanes::<I>::of(damping);
-        let apart = Lanes::<I>::of(omega2) - self.origin.omega2;
-        let near = self.delta.scale_add(damping, near);
-        let drift = self.pole.scale_add(damping - self.origin.damping, near);
-        drift.plus(apart)
-    }
 }

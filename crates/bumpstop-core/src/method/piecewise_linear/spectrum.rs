@@ -7,47 +7,28 @@
 
 use super::cluster::Cluster;
 use super::dense;
-use super::grouping::{Acting, Acts, group_alike, group_forces, static_groups};
+use super::family::Family;
+use super::grouping::Acts;
 use super::held::{Held, Reaction};
 use super::impedance::Impedance;
+use super::parts::Parts;
 use super::response::{Drives, Response};
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
-use super::single_mode::SingleMode;
+use super::singles::{Single, Subject};
 use super::view::View;
 use crate::error::Result;
 use crate::law::{Law, State};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
-use std::slice::ChunksExact;
+use std::sync::Arc;
 
 /// A mode's part in a coupled combination.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Member {
     pub mode: usize,
     pub group: usize,
     pub weight: f64,
-}
-
-/// What a single motion is the motion of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Subject {
-    /// A mode, less its part in a combination.
-    Mode(usize),
-    /// The only combination that a law pushes.
-    Combination,
-}
-
-/// Something that moves by itself.
-#[derive(Debug, Clone)]
-pub(crate) struct Single {
-    pub subject: Subject,
-    pub motion: SingleMode,
-    /// Where its exponents start.
-    pub at: usize,
-    /// Share of its damping that is modal; the rest belongs to `law`.
-    pub modal_share: f64,
-    pub law: Option<usize>,
 }
 
 /// All that a phase needs to know of the linear system between two switches.
@@ -62,8 +43,8 @@ pub(crate) struct Spectrum {
     /// Number of coupled groups.
     pub groups: usize,
     pub coupled_width: usize,
-    /// Shapes and left vectors: see [`Spectrum::shape`].
-    vectors: Rows,
+    /// Shapes and left vectors: see [`Spectrum::families`].
+    pub(super) families: Vec<Family>,
     /// Constant part of the groups under constant forces.
     pub at_rest: Vec<f64>,
     /// Part of their velocities that is not of exponents; none where they rest. What drives
@@ -105,12 +86,26 @@ pub(crate) enum Secular {
 /// Room for making spectra, used again and again.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Workbench {
-    order: Vec<usize>,
-    coupling: Coupling,
-    forces: Vec<f64>,
-    weights: Vec<f64>,
-    pushed: Vec<f64>,
+    pub(super) order: Vec<usize>,
+    pub(super) coupling: Coupling,
+    pub(super) forces: Vec<f64>,
+    pub(super) weights: Vec<f64>,
+    pub(super) pushed: Vec<f64>,
     combined: Vec<f64>,
+    pub(super) parts: Parts,
+}
+
+impl Workbench {
+    /// Forgets the parts of a run that is over.
+    pub(crate) fn clear(&mut self) {
+        self.parts = Parts::default();
+    }
+
+    /// Keeps so many parts.
+    #[cfg(test)]
+    pub(super) fn keep_parts(&mut self, most: usize) {
+        self.parts = Parts::of(most);
+    }
 }
 
 impl Spectrum {
@@ -127,10 +122,12 @@ impl Spectrum {
         let mut spectrum = room.cleared();
         spectrum.states.extend_from_slice(states);
         match Acts::of(problem, states) {
-            _ if problem.system.is_coupled() => dense::couple(&mut spectrum, problem, states)?,
+            _ if problem.system.is_coupled() => {
+                spectrum.couple_components(problem, states, secular, bench)?;
+            }
             Acts::Nothing => {}
             Acts::One(law) => spectrum.couple_by_one::<I, L>(problem, &law, secular, bench)?,
-            Acts::Several => dense::couple(&mut spectrum, problem, states)?,
+            Acts::Several => spectrum.couple_components(problem, states, secular, bench)?,
         }
         spectrum.add_singles(problem, bench);
         spectrum.lay_out_exponents(problem);
@@ -203,7 +200,7 @@ impl Spectrum {
         } else if by_one && !problem.system.is_coupled() {
             Some(Impedance::OneLaw(&bench.coupling))
         } else {
-            let coupled = dense::equations(problem, &self.states);
+            let coupled = dense::equations(problem, self);
             Some(Impedance::Dense(Box::new(coupled)))
         };
         let forcing = &problem.forcing;
@@ -220,40 +217,6 @@ impl Spectrum {
         self.clusters.append(&mut clusters);
     }
 
-    /// One spring and damper: the secular equation, or the dense problem where it declines.
-    #[inline(always)]
-    fn couple_by_one<I: Instructions, L: Law>(
-        &mut self,
-        problem: &Problem<L>,
-        law: &Acting,
-        secular: Secular,
-        bench: &mut Workbench,
-    ) -> Result<()> {
-        let coupling = &mut bench.coupling;
-        group_alike(problem, law, &mut bench.order, coupling, &mut self.members);
-        self.combinations = coupling.omega2.len();
-        let modal = problem.forcing.forces();
-        group_forces(modal, &self.members, self.combinations, &mut bench.forces);
-        if self.combinations == 1 {
-            self.add_lone_combination(problem, law, coupling, bench.forces[0]);
-            return Ok(());
-        }
-        self.groups = self.combinations;
-        self.group_damping.extend_from_slice(&coupling.damping);
-        self.at_rest.reserve(self.groups);
-        let rests = static_groups(coupling, &bench.forces, law.constant, &mut self.at_rest);
-        let reach = problem.duration * problem.duration;
-        let is_far = is_far(&self.at_rest, coupling, &bench.forces, law.constant, reach);
-        if rests && !is_far && secular == Secular::Try {
-            self.is_secular = self.solve_secular::<I>(coupling);
-        }
-        if !self.is_secular {
-            let duration = problem.duration;
-            dense::set_coupled(self, coupling, &bench.forces, law.constant, duration)?;
-        }
-        Ok(())
-    }
-
     /// A modulus that no exponent exceeds, in 1/s.
     pub(crate) fn pace(&self) -> f64 {
         (self.clusters.iter()).fold(self.fastest, |pace, cluster| pace.max(cluster.norm()))
@@ -263,204 +226,122 @@ impl Spectrum {
     pub(crate) fn numbers(&self) -> usize {
         let response = self.response.as_ref().map_or(0, |r| r.numbers());
         let clusters: usize = self.clusters.iter().map(Cluster::numbers).sum();
+        let families = self.families.iter();
+        let vectors: usize = families.map(|family| family.vectors.numbers()).sum();
         let weights = 4 * LANES * self.lambda.len() * (1 + self.views.len());
-        self.vectors.numbers() + weights + response + clusters
+        vectors + weights + response + clusters
     }
 
-    /// Makes room for the vectors of the coupled groups, `width` blocks of exponents, all zero.
-    pub(crate) fn make_room(&mut self, width: usize) {
-        self.make_room_for_exponents(width);
-        self.vectors.reset(3 * self.groups, width);
-    }
-
-    #[inline(always)]
-    fn make_room_for_exponents(&mut self, width: usize) {
+    /// Makes room for the vectors of the coupled groups, all of one family with `width` blocks of
+    /// exponents. The vectors are shapes, left vectors of positions, and left ones of velocities;
+    /// their entries are whatever they were.
+    pub(crate) fn make_room(&mut self, width: usize) -> (&mut [ComplexBlock], &mut Rows) {
         self.coupled_width = width;
         // Singles may add exponents behind.
         self.lambda.clear();
         self.lambda.reserve_exact(width + 1);
         self.lambda.resize(width, ComplexBlock::ZERO);
-    }
-
-    /// The shapes of all groups: see [`Spectrum::shape`].
-    #[inline(always)]
-    pub(crate) fn shapes(&self) -> ChunksExact<'_, ComplexBlock> {
-        self.vectors.rows(0, self.groups)
-    }
-
-    /// Shape of a group: `y_g = Re sum_j shape_gj z_j`.
-    #[inline(always)]
-    pub(crate) fn shape(&self, group: usize) -> &[ComplexBlock] {
-        self.vectors.row(group)
-    }
-
-    #[inline(always)]
-    pub(crate) fn shape_mut(&mut self, group: usize) -> &mut [ComplexBlock] {
-        self.vectors.row_mut(group)
-    }
-
-    /// Left vectors: amplitude = sum over groups of position row y + velocity row y'.
-    #[inline(always)]
-    pub(crate) fn left_position_mut(&mut self, group: usize) -> &mut [ComplexBlock] {
-        self.vectors.row_mut(self.groups + group)
-    }
-
-    #[inline(always)]
-    pub(crate) fn left_velocity(&self, group: usize) -> &[ComplexBlock] {
-        self.vectors.row(2 * self.groups + group)
-    }
-
-    #[inline(always)]
-    pub(crate) fn left_velocity_mut(&mut self, group: usize) -> &mut [ComplexBlock] {
-        self.vectors.row_mut(2 * self.groups + group)
-    }
-
-    /// Shapes and left vectors from the roots of the secular equation: with psi_i = phi_i/D_i,
-    /// `a = 2 psi'[(lambda + C) y + y'] / (psi' (2 lambda + C) psi)`, C with the stop's damper.
-    /// `false` where the secular equation does not apply.
-    #[inline(always)]
-    fn solve_secular<I: Instructions>(&mut self, coupling: &Coupling) -> bool {
-        if !coupling.is_lightly_damped() {
-            return false;
+        self.families.truncate(1);
+        if self.families.is_empty() {
+            self.families.push(Family::default());
         }
-        self.make_room_for_exponents(self.groups.div_ceil(LANES));
-        // All of them are set below.
-        self.vectors.fit(3 * self.groups, self.coupled_width);
-        for block in 0..self.coupled_width {
-            let lambda = coupling.solve_block::<I>(block, &mut self.vectors);
-            let Some(lambda) = lambda else {
-                return false;
+        let vectors = self.families[0].fresh(self.groups, width);
+        (&mut self.lambda, vectors)
+    }
+
+    /// Takes vectors and exponents of the coupled groups, all of one family.
+    pub(crate) fn set_family(&mut self, lambda: Vec<ComplexBlock>, vectors: Rows) {
+        self.coupled_width = lambda.len();
+        self.lambda = lambda;
+        self.families.clear();
+        self.families.push(Family {
+            groups: self.groups,
+            vectors: Arc::new(vectors),
+            ..Family::default()
+        });
+    }
+
+    /// Takes exponents and vectors of another one, whose groups are the same.
+    pub(super) fn share_exponents(&mut self, other: &Self) {
+        self.coupled_width = other.coupled_width;
+        self.lambda.clone_from(&other.lambda);
+        self.families.clone_from(&other.families);
+    }
+
+    /// The groups, by what exponents they share.
+    #[inline(always)]
+    pub(crate) fn families(&self) -> &[Family] {
+        if self.groups == 0 {
+            &[]
+        } else {
+            &self.families
+        }
+    }
+
+    fn family(&self, group: usize) -> &Family {
+        let next = (self.families).partition_point(|family| family.first_group <= group);
+        &self.families[next - 1]
+    }
+
+    /// The entry of a group's shape, of all exponents.
+    pub(crate) fn shape(&self, group: usize, column: usize) -> Complex<f64> {
+        let family = self.family(group);
+        family.entry(family.shape(group - family.first_group), column)
+    }
+
+    /// The entry of a group's left vector of velocities, of all exponents.
+    pub(crate) fn left_velocity(&self, group: usize, column: usize) -> Complex<f64> {
+        let family = self.family(group);
+        family.entry(family.left_velocity(group - family.first_group), column)
+    }
+
+    /// Adds the groups, exponents and lone combinations of another one behind its own.
+    pub(crate) fn join(&mut self, other: &Self) {
+        let (groups, blocks) = (self.combinations, self.coupled_width);
+        let shifted = other.members.iter().map(|member| Member {
+            group: member.group + groups,
+            ..*member
+        });
+        self.members.extend(shifted);
+        self.combinations += other.combinations;
+        for single in &other.singles {
+            let subject = match single.subject {
+                Subject::Combination(number) => Subject::Combination(number + groups),
+                mode => mode,
             };
-            self.lambda[block].put(lambda);
-            self.set_vectors::<I>(coupling, block, lambda);
-        }
-        true
-    }
-
-    #[inline(always)]
-    fn set_vectors<I: Instructions>(
-        &mut self,
-        coupling: &Coupling,
-        block: usize,
-        lambda: Complex<Lanes<I>>,
-    ) {
-        let (k, c) = (
-            Lanes::<I>::of(coupling.stiffness),
-            Lanes::<I>::of(coupling.stop_damping),
-        );
-        let two = Lanes::<I>::of(2.0);
-        // phi' psi = -1/kappa at a root.
-        let kappa = Complex::new(k + c * lambda.re, c * lambda.im);
-        let contact = safe_recip(kappa);
-        let mut norm = (contact * contact).scale(c);
-        let groups = self.groups;
-        let modes = coupling.damping.iter().zip(&coupling.phi);
-        for ((damping, phi), row) in modes.zip(self.vectors.rows_mut(0, groups)) {
-            let inverse = row[block].lanes();
-            let psi = inverse.scale(Lanes::<I>::of(*phi));
-            row[block].put(psi);
-            let rate = lambda.scale(two).plus(Lanes::<I>::of(*damping));
-            norm = (psi * psi).mul_add(rate, norm);
-        }
-        let factor = safe_recip(norm).scale(two);
-        let push = (contact * factor).scale(c);
-        let (shapes, left) = self.vectors.split_rows(groups);
-        let (positions, velocities) = left.split_at_mut(left.len() / 2);
-        let width = self.coupled_width;
-        let modes = coupling.damping.iter().zip(&coupling.phi);
-        let rows = shapes
-            .chunks_exact(width)
-            .zip((positions.chunks_exact_mut(width)).zip(velocities.chunks_exact_mut(width)));
-        for ((damping, phi), (shape, (position, velocity))) in modes.zip(rows) {
-            let psi = shape[block].lanes() * factor;
-            let damper = push.scale(Lanes::<I>::of(*phi));
-            let with_rate = psi * lambda.plus(Lanes::<I>::of(*damping));
-            velocity[block].put(psi);
-            position[block].put(with_rate - damper);
-        }
-    }
-
-    /// A law that pushes a single mode, or a single combination of like ones, only changes its
-    /// stiffness and damping.
-    fn add_lone_combination<L: Law>(
-        &mut self,
-        problem: &Problem<L>,
-        law: &Acting,
-        coupling: &Coupling,
-        modal_force: f64,
-    ) {
-        let phi = coupling.phi[0];
-        let (modal, added) = (coupling.damping[0], law.damping * phi * phi);
-        let force = modal_force + phi * law.constant;
-        let stiffness = coupling.omega2[0] + law.stiffness * phi * phi;
-        let damping = modal + added;
-        self.singles.push(Single {
-            subject: Subject::Combination,
-            motion: SingleMode::new(stiffness, damping, force, problem.duration),
-            at: 0,
-            modal_share: if damping > 0.0 { modal / damping } else { 0.0 },
-            law: Some(law.law),
-        });
-    }
-
-    /// A combination that moves by itself though laws hold others: with damping of the structure
-    /// alone.
-    pub(super) fn add_combination<L: Law>(
-        &mut self,
-        problem: &Problem<L>,
-        stiffness: f64,
-        damping: f64,
-        force: f64,
-    ) {
-        self.singles.push(Single {
-            subject: Subject::Combination,
-            motion: SingleMode::new(stiffness, damping, force, problem.duration),
-            at: 0,
-            modal_share: 1.0,
-            law: None,
-        });
-    }
-
-    /// Adds the modes, or parts of modes, that no acting law sees.
-    #[inline(always)]
-    fn add_singles<L: Law>(&mut self, problem: &Problem<L>, bench: &mut Workbench) {
-        let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
-        let forces = problem.forcing.forces();
-        let Workbench {
-            forces: totals,
-            weights,
-            pushed,
-            ..
-        } = bench;
-        group_forces(forces, &self.members, self.combinations, totals);
-        weights.clear();
-        weights.resize(omega2.len(), 0.0);
-        pushed.clear();
-        pushed.resize(omega2.len(), 0.0);
-        let mut whole = 0;
-        for member in &self.members {
-            weights[member.mode] = member.weight;
-            // The part of the mode's force that its group takes.
-            pushed[member.mode] = member.weight * totals[member.group];
-            whole += usize::from(member.weight.abs() == 1.0);
-        }
-        if let Some(held) = &self.held {
-            held.modes.iter().for_each(|&mode| weights[mode] = 1.0);
-        }
-        self.singles.reserve_exact(omega2.len() - whole);
-        for mode in 0..omega2.len() {
-            if weights[mode].abs() == 1.0 {
-                continue;
-            }
-            let force = forces[mode] - pushed[mode];
             self.singles.push(Single {
-                subject: Subject::Mode(mode),
-                motion: SingleMode::new(omega2[mode], damping[mode], force, problem.duration),
-                at: 0,
-                modal_share: 1.0,
-                law: None,
+                subject,
+                ..single.clone()
             });
         }
+        if other.groups == 0 {
+            return;
+        }
+        if self.groups == 0 {
+            self.families.clear();
+        }
+        self.groups += other.groups;
+        self.coupled_width += other.coupled_width;
+        for family in &other.families {
+            self.families.push(Family {
+                first_group: family.first_group + groups,
+                first_block: family.first_block + blocks,
+                ..family.clone()
+            });
+        }
+        self.lambda.extend_from_slice(&other.lambda);
+        self.at_rest.extend_from_slice(&other.at_rest);
+        if !other.rate_at_rest.is_empty() {
+            self.rate_at_rest.resize(groups, 0.0);
+            self.rate_at_rest.extend_from_slice(&other.rate_at_rest);
+        }
+        self.group_damping.extend_from_slice(&other.group_damping);
+        for cluster in &other.clusters {
+            let mut cluster = cluster.clone();
+            cluster.at += blocks * LANES;
+            self.clusters.push(cluster);
+        }
+        self.is_secular |= other.is_secular;
     }
 
     fn lay_out_exponents<L: Law>(&mut self, problem: &Problem<L>) {
@@ -530,43 +411,47 @@ impl Spectrum {
         velocity: &[f64],
         to: &mut [ComplexBlock],
     ) {
-        let groups = self.groups;
-        for (block, to) in to.iter_mut().enumerate().take(self.coupled_width) {
-            let mut total = to.lanes::<I>();
-            let of_position = self.vectors.rows(groups, groups).zip(position);
-            let of_velocity = self.vectors.rows(2 * groups, groups).zip(velocity);
-            for ((left, y), (left_rate, rate)) in of_position.zip(of_velocity) {
-                total = left[block].lanes().scale_add(Lanes::of(*y), total);
-                total = left_rate[block].lanes().scale_add(Lanes::of(*rate), total);
+        for family in self.families() {
+            let state = [family.own(position), family.own(velocity)];
+            let to = &mut to[family.first_block..][..family.width()];
+            let whole = family.width() / TILE * TILE;
+            for first in (0..whole).step_by(TILE) {
+                family.add_amplitudes::<I, TILE>(state, first, to);
             }
-            to.put(total);
+            for block in whole..family.width() {
+                family.add_amplitudes::<I, 1>(state, block, to);
+            }
         }
     }
 
-    /// `Re sum_j shape_gj z_j` over the coupled exponents, for all groups, and the same of rates.
+    /// `Re sum_j shape_gj z_j` over the coupled exponents, for all groups, and the same of the
+    /// rates: the shapes are read once for both.
     #[inline(always)]
     pub(crate) fn group_sums<I: Instructions>(
         &self,
         [z, rate]: [&[ComplexBlock]; 2],
         [to, to_rate]: [&mut [f64]; 2],
     ) {
-        let (z, rate) = (&z[..self.coupled_width], &rate[..self.coupled_width]);
-        let mut shapes = self.shapes();
-        let to = to[..self.groups].chunks_mut(HALF);
-        for (to, to_rate) in to.zip(to_rate[..self.groups].chunks_mut(HALF)) {
-            let mut sums = [Lanes::<I>::of(0.0); LANES];
-            let (positions, velocities) = sums.split_at_mut(HALF);
-            let pairs = positions.iter_mut().zip(velocities);
-            for ((position, velocity), shape) in pairs.zip(shapes.by_ref().take(to.len())) {
-                for (shape, (z, rate)) in shape.iter().zip(z.iter().zip(rate)) {
-                    let shape = shape.lanes();
-                    *position = shape.add_real_product(z.lanes(), *position);
-                    *velocity = shape.add_real_product(rate.lanes(), *velocity);
+        for family in self.families() {
+            let (z, rate) = (&z[family.blocks()], &rate[family.blocks()]);
+            let mut shapes = family.shapes();
+            let own = family.first_group..family.first_group + family.groups;
+            let to = to[own.clone()].chunks_mut(HALF);
+            for (to, to_rate) in to.zip(to_rate[own].chunks_mut(HALF)) {
+                let mut sums = [Lanes::<I>::of(0.0); LANES];
+                let (positions, velocities) = sums.split_at_mut(HALF);
+                let pairs = positions.iter_mut().zip(velocities);
+                for ((position, velocity), shape) in pairs.zip(shapes.by_ref().take(to.len())) {
+                    for (shape, (z, rate)) in shape.iter().zip(z.iter().zip(rate)) {
+                        let shape = shape.lanes();
+                        *position = shape.add_real_product(z.lanes(), *position);
+                        *velocity = shape.add_real_product(rate.lanes(), *velocity);
+                    }
                 }
-            }
-            let totals = Lanes::totals(sums);
-            for (i, (to, to_rate)) in to.iter_mut().zip(to_rate).enumerate() {
-                (*to, *to_rate) = (totals[i], totals[HALF + i]);
+                let totals = Lanes::totals(sums);
+                for (i, (to, to_rate)) in to.iter_mut().zip(to_rate).enumerate() {
+                    (*to, *to_rate) = (totals[i], totals[HALF + i]);
+                }
             }
         }
     }
@@ -575,21 +460,8 @@ impl Spectrum {
 /// Half of the lanes.
 const HALF: usize = LANES / 2;
 
-/// Whether a position at rest lies beyond what the forces can do in a run: the motion, measured
-/// from there, would lose its digits.
-#[inline(always)]
-fn is_far(rest: &[f64], coupling: &Coupling, forces: &[f64], constant: f64, reach: f64) -> bool {
-    let (mut farthest, mut largest) = (0.0f64, 0.0f64);
-    for (y, (force, phi)) in rest.iter().zip(forces.iter().zip(&coupling.phi)) {
-        farthest = farthest.max(y.abs());
-        largest = largest.max(force.abs() + (phi * constant).abs());
-    }
-    farthest > FAR * largest * reach
-}
-
-/// A mode of angular frequency w rests at `force/w^2`, here with w times the run's length at a
-/// half.
-const FAR: f64 = 4.0;
+/// Blocks of exponents that are taken together: their entries lie side by side in memory.
+const TILE: usize = 4;
 
 /// The largest of eight.
 #[inline(always)]
@@ -605,7 +477,7 @@ fn largest<I: Instructions>(lanes: Lanes<I>) -> f64 {
 
 /// Reciprocal, zero for zero (the padding of the lanes).
 #[inline(always)]
-fn safe_recip<I: Instructions>(z: Complex<Lanes<I>>) -> Complex<Lanes<I>> {
+pub(super) fn safe_recip<I: Instructions>(z: Complex<Lanes<I>>) -> Complex<Lanes<I>> {
     let norm = z.norm2();
     let zero = Lanes::<I>::of(0.0);
     let inverse = zero.select_less(norm, Lanes::<I>::of(1.0) / norm, zero);

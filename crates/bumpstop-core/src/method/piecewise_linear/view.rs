@@ -3,7 +3,8 @@
 use super::cluster::Cluster;
 use super::response::Response;
 use super::rows::{ComplexBlock, entry, set_entry};
-use super::spectrum::{Spectrum, Subject};
+use super::singles::Subject;
+use super::spectrum::Spectrum;
 use crate::forcing::Forcing;
 use crate::number::{Complex, Instructions, Lanes, Number};
 use std::borrow::Cow;
@@ -42,13 +43,16 @@ impl View {
         self.exponents
             .resize(spectrum.lambda.len(), ComplexBlock::ZERO);
         self.rest = 0.0;
-        for b in 0..spectrum.coupled_width {
-            let mut total = Complex::<Lanes<I>>::zero();
-            for (shape, weight) in spectrum.shapes().zip(combined.iter()) {
-                let weight = Lanes::<I>::of(*weight);
-                total = shape[b].lanes().scale_add(weight, total);
+        for family in spectrum.families() {
+            let weights = family.own(combined);
+            for b in 0..family.width() {
+                let mut total = Complex::<Lanes<I>>::zero();
+                for (shape, weight) in family.shapes().zip(weights) {
+                    let weight = Lanes::<I>::of(*weight);
+                    total = shape[b].lanes().scale_add(weight, total);
+                }
+                self.exponents[family.first_block + b].put(total);
             }
-            self.exponents[b].put(total);
         }
         self.clusters.clear();
         let following = spectrum.response.as_ref().map_or(0, |r| r.followers.len());
@@ -69,7 +73,7 @@ impl View {
         for single in &spectrum.singles {
             let weight = match single.subject {
                 Subject::Mode(mode) => row[mode],
-                Subject::Combination => combined[0],
+                Subject::Combination(number) => combined[number],
             };
             self.singles.push(weight);
             for i in 0..single.motion.count() {

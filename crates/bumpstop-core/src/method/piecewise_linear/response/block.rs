@@ -52,7 +52,7 @@ impl Block {
             Self::of_columns(spectrum, columns, generator)
         });
         let is_there = |j: &usize| {
-            let takes_part = |group| entry(spectrum.left_velocity(group), *j).norm2() > 0.0;
+            let takes_part = |group| spectrum.left_velocity(group, *j).norm2() > 0.0;
             (0..spectrum.groups).any(takes_part) && !spectrum.clusters.iter().any(|c| c.holds(*j))
         };
         let alone = (0..spectrum.coupled_width * LANES).filter(is_there);
@@ -65,8 +65,8 @@ impl Block {
 
     fn of_columns(spectrum: &Spectrum, columns: Vec<usize>, generator: Mat<c64>) -> Self {
         let is_real = |j: &usize| {
-            let vectors = |g| [spectrum.left_velocity(g), spectrum.shape(g)];
-            (0..spectrum.groups).all(|g| vectors(g).iter().all(|row| entry(row, *j).im == 0.0))
+            let vectors = |g| [spectrum.left_velocity(g, *j), spectrum.shape(g, *j)];
+            (0..spectrum.groups).all(|g| vectors(g).iter().all(|z| z.im == 0.0))
         };
         let count = generator.nrows();
         let has_real_generator =
@@ -128,7 +128,7 @@ impl Block {
             match &self.columns {
                 Columns::Coupled(columns) => {
                     for group in 0..spectrum.groups {
-                        parts.combined[group] = entry(spectrum.shape(group), columns[column]);
+                        parts.combined[group] = spectrum.shape(group, columns[column]);
                     }
                 }
                 Columns::Single { index, shapes, .. } => parts.singles[*index] = shapes[column],
@@ -145,7 +145,7 @@ impl Block {
                 let gain = |j: &usize| {
                     let forces = force.combined.iter().enumerate().take(spectrum.groups);
                     forces.fold(Complex::zero(), |total, (group, p)| {
-                        entry(spectrum.left_velocity(group), *j).mul_add(*p, total)
+                        spectrum.left_velocity(group, *j).mul_add(*p, total)
                     })
                 };
                 columns.iter().map(gain).collect()
@@ -174,7 +174,7 @@ impl Block {
             term = inverse.solve(&term);
             for (group, total) in row.iter_mut().enumerate() {
                 for (i, j) in columns.iter().enumerate() {
-                    let shape = entry(spectrum.shape(group), *j);
+                    let shape = spectrum.shape(group, *j);
                     *total += shape.real_product(complex(term[(i, 0)]));
                 }
             }

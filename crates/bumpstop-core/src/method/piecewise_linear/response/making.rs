@@ -97,10 +97,12 @@ impl<'a> Making<'a> {
     fn add_links(&mut self, push: &Push, groups: &[Vec<f64>], singles: &[Vec<f64>]) {
         let spectrum = self.spectrum;
         for (number, order) in (-2..self.response.stride as i32).enumerate() {
-            let zero = vec![0.0; spectrum.combinations];
             let of_groups = usize::try_from(order).ok().and_then(|m| groups.get(m));
+            let mut combined = of_groups.cloned().unwrap_or_default();
+            // Combinations that are alone have numbers behind the groups.
+            combined.resize(spectrum.combinations, 0.0);
             let parts = Parts {
-                combined: of_groups.cloned().unwrap_or(zero),
+                combined,
                 singles: singles.iter().map(|series| series[number]).collect(),
             };
             let row = parts.modes(spectrum, self.modes);
@@ -119,11 +121,12 @@ impl<'a> Making<'a> {
     /// The series of the coupled groups under a force, from order 0 on, without what is slow. By
     /// the structure's own matrices where nothing is, else block by block.
     fn group_series(&self, blocks: &[Block], parts: &Parts, force: &ComplexParts) -> Vec<Vec<f64>> {
-        let stride = self.response.stride;
+        let (stride, groups) = (self.response.stride, self.spectrum.groups);
+        let forces = &parts.combined[..groups];
         let whole = self.impedance.filter(|_| !self.has_slow);
-        let whole = whole.and_then(|impedance| series(&parts.combined, impedance, stride));
+        let whole = whole.and_then(|impedance| series(forces, impedance, stride));
         whole.unwrap_or_else(|| {
-            let mut series = vec![vec![0.0; self.spectrum.combinations]; stride];
+            let mut series = vec![vec![0.0; groups]; stride];
             for block in blocks.iter().filter(|block| !block.is_slow(self.duration)) {
                 block.add_series(self.spectrum, force, &mut series);
             }
@@ -139,8 +142,9 @@ impl<'a> Making<'a> {
         let mut shape = vec![Complex::zero(); self.modes];
         let blocks = std::mem::take(&mut self.blocks);
         let whole = self.impedance.filter(|_| !self.resonates(&blocks, omega));
-        match whole.and_then(|impedance| impedance.harmonic(omega, &force.combined)) {
-            Some(combined) => parts.combined = combined,
+        let forces = &force.combined[..self.spectrum.groups];
+        match whole.and_then(|impedance| impedance.harmonic(omega, forces)) {
+            Some(groups) => parts.combined[..groups.len()].copy_from_slice(&groups),
             None => {
                 for block in &blocks {
                     self.add_sides(&load, block, omega, &force, &mut shape);

@@ -1,7 +1,8 @@
 //! Numbers for the modes, split into those of the combinations that laws push and of what moves by
 //! itself.
 
-use crate::method::piecewise_linear::spectrum::{Spectrum, Subject};
+use crate::method::piecewise_linear::singles::Subject;
+use crate::method::piecewise_linear::spectrum::Spectrum;
 use crate::number::Complex;
 
 /// Numbers for the combinations and the singles of a spectrum.
@@ -21,7 +22,7 @@ impl Parts {
         }
         let single = |subject: Subject| match subject {
             Subject::Mode(mode) => own[mode],
-            Subject::Combination => combined[0],
+            Subject::Combination(number) => combined[number],
         };
         let singles = spectrum.singles.iter().map(|s| single(s.subject)).collect();
         Self { combined, singles }
@@ -33,7 +34,7 @@ impl Parts {
         for (single, x) in spectrum.singles.iter().zip(&self.singles) {
             match single.subject {
                 Subject::Mode(mode) => modal[mode] = *x,
-                Subject::Combination => self.combined[0] = *x,
+                Subject::Combination(number) => self.combined[number] = *x,
             }
         }
         for member in &spectrum.members {

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::law::{Law, State};
 use crate::method::piecewise_linear::coupled::Coupled;
 use crate::method::piecewise_linear::held::DEPENDENT;
+use crate::method::piecewise_linear::partition::Groups;
 use crate::method::piecewise_linear::phase::{Phase, Phases};
 use crate::method::piecewise_linear::record::PhaseRecord;
 use crate::method::piecewise_linear::rows::entry;
@@ -38,7 +39,11 @@ impl Equations {
     /// The equations of the phases that share a phase's spectrum.
     pub(super) fn new<L: Law>(problem: &Problem<L>, phases: &Phases, phase: Phase) -> Result<Self> {
         let modes: Vec<usize> = (0..problem.system.modes()).collect();
-        let coupled = Coupled::of_modes(problem, phases.states(phase), &modes);
+        let coupled = Coupled::of_groups(
+            problem,
+            phases.states(phase),
+            &Groups::of_modes(&problem.system, &modes),
+        );
         let spectrum = &phases.spectra[phase.spectrum];
         let n = modes.len();
         let symmetric =

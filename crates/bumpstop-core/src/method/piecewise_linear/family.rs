@@ -1,0 +1,106 @@
+//! Groups that share exponents: a rectangle of shapes and left vectors.
+
+use super::rows::{ComplexBlock, Rows, entry};
+use crate::number::{Complex, Instructions, LANES, Lanes, Number};
+use std::ops::Range;
+use std::slice::ChunksExact;
+use std::sync::Arc;
+
+/// Groups one behind the other, and the exponents, in whole blocks, of which they are made.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Family {
+    pub first_group: usize,
+    pub groups: usize,
+    pub first_block: usize,
+    /// Shapes, and behind them the left vectors of positions and of velocities. Spectra that
+    /// differ elsewhere share them.
+    pub vectors: Arc<Rows>,
+}
+
+impl Family {
+    /// Shape of a group: `y_g = Re sum_j shape_gj z_j`. Groups and blocks are counted from the
+    /// family's first.
+    #[inline(always)]
+    pub(crate) fn shape(&self, group: usize) -> &[ComplexBlock] {
+        self.vectors.row(group)
+    }
+
+    /// The shapes of all groups.
+    #[inline(always)]
+    pub(crate) fn shapes(&self) -> ChunksExact<'_, ComplexBlock> {
+        self.vectors.rows(0, self.groups)
+    }
+
+    /// Left vectors: amplitude = sum over groups of position row y + velocity row y'.
+    #[inline(always)]
+    pub(crate) fn left_velocity(&self, group: usize) -> &[ComplexBlock] {
+        self.vectors.row(2 * self.groups + group)
+    }
+
+    /// Its part of numbers for all groups.
+    #[inline(always)]
+    pub(crate) fn own<'a>(&self, of_groups: &'a [f64]) -> &'a [f64] {
+        &of_groups[self.first_group..][..self.groups]
+    }
+
+    /// How many blocks of exponents it has.
+    #[inline(always)]
+    pub(crate) fn width(&self) -> usize {
+        self.vectors.width()
+    }
+
+    /// Its blocks among all.
+    pub(crate) fn blocks(&self) -> Range<usize> {
+        self.first_block..self.first_block + self.width()
+    }
+
+    /// Adds the amplitudes of some blocks of exponents from positions and velocities of its
+    /// groups.
+    #[inline(always)]
+    pub(crate) fn add_amplitudes<I: Instructions, const BLOCKS: usize>(
+        &self,
+        [position, velocity]: [&[f64]; 2],
+        first: usize,
+        to: &mut [ComplexBlock],
+    ) {
+        let mut totals = [Complex::<Lanes<I>>::zero(); BLOCKS];
+        for (total, to) in totals.iter_mut().zip(&to[first..]) {
+            *total = to.lanes();
+        }
+        let groups = self.groups;
+        let of_position = self.vectors.rows(groups, groups).zip(position);
+        let of_velocity = self.vectors.rows(2 * groups, groups).zip(velocity);
+        for ((left, y), (left_rate, rate)) in of_position.zip(of_velocity) {
+            let (y, rate) = (Lanes::<I>::of(*y), Lanes::<I>::of(*rate));
+            let both = left[first..].iter().zip(&left_rate[first..]);
+            for (total, (left, left_rate)) in totals.iter_mut().zip(both) {
+                *total = left.lanes().scale_add(y, *total);
+                *total = left_rate.lanes().scale_add(rate, *total);
+            }
+        }
+        for (total, to) in totals.into_iter().zip(&mut to[first..]) {
+            to.put(total);
+        }
+    }
+
+    /// The entry of a row in a column counted from the first of all exponents; zero beside the
+    /// family's own.
+    pub(crate) fn entry(&self, row: &[ComplexBlock], column: usize) -> Complex<f64> {
+        match column.checked_sub(self.first_block * LANES) {
+            Some(own) if own < row.len() * LANES => entry(row, own),
+            _ => Complex::zero(),
+        }
+    }
+
+    /// The vectors in another size; entries are whatever they were. Memory that is shared is left to the others.
+    #[inline(always)]
+    pub(crate) fn fresh(&mut self, groups: usize, width: usize) -> &mut Rows {
+        (self.first_group, self.first_block, self.groups) = (0, 0, groups);
+        if Arc::get_mut(&mut self.vectors).is_none() {
+            self.vectors = Arc::default();
+        }
+        let vectors = Arc::make_mut(&mut self.vectors);
+        vectors.fit(3 * groups, width);
+        vectors
+    }
+}
