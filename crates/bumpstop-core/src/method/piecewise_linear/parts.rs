@@ -32,6 +32,8 @@ impl Default for Parts {
 
 #[derive(Debug, Clone)]
 struct Kept {
+    /// Its modes: without laws they alone tell it from others.
+    modes: Vec<usize>,
     /// The laws that act, with their states.
     laws: Vec<(usize, State)>,
     part: Spectrum,
@@ -60,13 +62,15 @@ impl Parts {
     fn find<L: Law>(
         &mut self,
         problem: &Problem<L>,
+        modes: &[usize],
         laws: &[(usize, State)],
         secular: Secular,
     ) -> Option<&Spectrum> {
         let forces = |(law, state): (usize, State)| problem.laws[law].piece(state);
         let serves = |kept: &Kept| {
             let both = || kept.laws.iter().zip(laws);
-            kept.has_matrices_of(laws)
+            kept.modes == modes
+                && kept.has_matrices_of(laws)
                 && both().all(|(own, other)| own == other || forces(*own) == forces(*other))
                 && (secular == Secular::Try || !kept.part.is_secular)
         };
@@ -100,11 +104,15 @@ impl Parts {
     }
 
     /// Keeps a part; the one that has not been used for longest goes where there are too many.
-    fn keep(&mut self, laws: Vec<(usize, State)>, part: Spectrum) {
+    fn keep(&mut self, modes: &[usize], laws: &[(usize, State)], part: Spectrum) {
         if self.kept.len() >= self.most {
             self.kept.remove(0);
         }
-        self.kept.push(Kept { laws, part });
+        self.kept.push(Kept {
+            modes: modes.to_vec(),
+            laws: laws.to_vec(),
+            part,
+        });
     }
 }
 
@@ -125,11 +133,12 @@ impl Spectrum {
                 return dense::couple_left(self, problem, states, left, &groups);
             }
             let laws: Vec<_> = component.laws.iter().map(|&l| (l, states[l])).collect();
-            if bench.parts.find(problem, &laws, secular).is_none() {
+            let modes = &component.modes;
+            if bench.parts.find(problem, modes, &laws, secular).is_none() {
                 let part = Self::of_component(problem, states, &component, secular, bench)?;
-                bench.parts.keep(laws.clone(), part);
+                bench.parts.keep(modes, &laws, part);
             }
-            if let Some(part) = bench.parts.find(problem, &laws, secular) {
+            if let Some(part) = bench.parts.find(problem, modes, &laws, secular) {
                 match part.groups {
                     // Combinations that are alone have numbers behind all groups.
                     0 => alone.push(part.clone()),
@@ -168,7 +177,11 @@ impl Spectrum {
                 }
                 Some(springs) if secular == Secular::Try => {
                     let laws: Vec<_> = component.laws.iter().map(|&l| (l, states[l])).collect();
-                    if let [first, _] = laws[..] {
+                    // Of one spring only: a dense problem would hold the other law too.
+                    let is_single = |law| springs.iter().filter(|s| s.law == law).count() == 1;
+                    if let [first, _] = laws[..]
+                        && is_single(first.0)
+                    {
                         Self::prepare_one(problem, states, first, secular, bench)?;
                     }
                     let alike = bench.parts.find_alike(&laws);
@@ -195,9 +208,10 @@ impl Spectrum {
         bench: &mut Workbench,
     ) -> Result<()> {
         let alone = Component::of_law(problem, states, law.0);
-        if bench.parts.find(problem, &[law], secular).is_none() {
+        let modes = &alone.modes;
+        if bench.parts.find(problem, modes, &[law], secular).is_none() {
             let part = Self::of_component(problem, states, &alone, secular, bench)?;
-            bench.parts.keep(vec![law], part);
+            bench.parts.keep(modes, &[law], part);
         }
         Ok(())
     }
