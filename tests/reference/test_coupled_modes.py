@@ -223,3 +223,27 @@ def test_fixed_steps_are_refused() -> None:
     for of in (basis(damping=DAMPER), basis(circulatory=SKEW)):
         with pytest.raises(bs.InputError, match="method: does not take modes that damping"):
             bs.simulate(problem(of), method="central_difference", dt=1e-5)
+
+
+def test_pairs_that_only_dampers_couple_are_told_apart() -> None:
+    stiffness = np.diag([1e4, 3e4, 2e4, 6e4])
+    damping = np.zeros((4, 4))
+    damping[:2, :2] = [[8.0, -6.0], [-6.0, 9.0]]
+    damping[2:, 2:] = [[20.0, 5.0], [5.0, 4.0]]
+    model = bs.Matrices(
+        stiffness=stiffness,
+        mass=np.eye(4),
+        damping=damping,
+        dofs=[(node, "dx") for node in "PQRS"],
+    )
+    of = bs.ModalBasis.from_structure(model, modes="all")
+    start = np.array([0.3, -0.2, 0.5, 0.4])
+    velocity = of.project_field(start).tolist()
+    response = bs.simulate(
+        bs.Problem(of, initial=bs.ModalState(velocity=velocity), duration=DURATION)
+    )
+    whole = np.block([[np.zeros((4, 4)), np.eye(4)], [-stiffness, -damping]])
+    time = 0.37 * DURATION
+    expected = (expm(whole * time) @ np.concatenate([np.zeros(4), start]))[:4]
+    found = [float(response.at([time]).displacement(node, "dx")[0]) for node in "PQRS"]
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14)
