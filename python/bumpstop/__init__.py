@@ -22,9 +22,12 @@ if TYPE_CHECKING:
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
     from bumpstop.loads.base_motion import BaseMotion
+    from bumpstop.loads.expression import Expression
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
+    from bumpstop.loads.product import Product
+    from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.loads.translation import RigidTranslation
     from bumpstop.modal.basis import ModalBasis
@@ -79,6 +82,7 @@ __all__ = [
     "ComplexModes",
     "Component",
     "ComputationError",
+    "Expression",
     "FrequencyResponse",
     "Friction",
     "Gauge",
@@ -100,6 +104,7 @@ __all__ = [
     "PointMass",
     "Polynomial",
     "Problem",
+    "Product",
     "RayleighDamping",
     "Rectangle",
     "ReducedComponent",
@@ -119,6 +124,7 @@ __all__ = [
     "Structure",
     "SturmCount",
     "Support",
+    "Sweep",
     "TimeTable",
     "Tube",
     "campbell",
@@ -149,6 +155,7 @@ _HOME = {
     "ComplexModes": "modal.oscillation",
     "Component": "modal.substructure.component",
     "ComputationError": "errors",
+    "Expression": "loads.expression",
     "FrequencyResponse": "modal.frequency_response",
     "Friction": "laws.friction",
     "Gauge": "structure.gauge",
@@ -170,6 +177,7 @@ _HOME = {
     "PointMass": "structure.mass",
     "Polynomial": "loads.time",
     "Problem": "problem",
+    "Product": "loads.product",
     "RayleighDamping": "modal.damping",
     "Rectangle": "structure.sections.rectangle",
     "ReducedComponent": "modal.substructure.reduced",
@@ -177,11 +185,11 @@ _HOME = {
     "Response": "response",
     "RigidLink": "structure.link",
     "RigidRotation": "loads.initial",
+    "RigidStop": "laws.rigid_stop",
     "RigidTranslation": "loads.translation",
     "Rotation": "modal.substructure.rotation",
     "Section": "structure.sections.section",
     "Spring": "structure.spring",
-    "RigidStop": "laws.rigid_stop",
     "SpringLaw": "laws.spring",
     "StaticShapes": "modal.static_shapes",
     "Stop": "laws.stop",
@@ -189,6 +197,7 @@ _HOME = {
     "Structure": "structure.structure",
     "SturmCount": "modal.certificate",
     "Support": "structure.support",
+    "Sweep": "loads.sweep",
     "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
     "campbell": "modal.rotor",

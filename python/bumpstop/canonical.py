@@ -62,7 +62,7 @@ def canonical_form(problem: Problem) -> CanonicalForm:
     # Few obstacles move: what follows them is imported where one does.
     moved = [(law, getattr(stop, "functions", ())) for law, stop in enumerate(problem.laws)]
     if any(functions for _, functions in moved):
-        forcing = _with_motions(forcing, moved)
+        forcing = _with_motions(forcing, moved, problem.duration)
     return CanonicalForm(system, laws, forcing, displacement, velocity)
 
 
@@ -71,17 +71,22 @@ def _forcing(problem: Problem) -> _core.Forcing:
     constant = np.zeros(len(problem.basis.omega2))
     changing = []
     for load in problem.loads:
-        force = load.modal_force(problem.basis)
-        if load.functions:
-            changing += [(force, function) for function in load.functions]
-        else:
-            constant += force
+        for force, functions in load.components(problem.basis):
+            if functions:
+                changing.append((force, functions))
+            else:
+                constant += force
     if not changing:
         return _core.Forcing(constant)
-    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
+    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable, resolved
 
     polynomials, harmonics, tables = [], [], []
-    for force, function in changing:
+    terms = [
+        (force, term)
+        for force, functions in changing
+        for term in resolved(functions, problem.duration)
+    ]
+    for force, function in terms:
         match function:
             case Polynomial():
                 polynomials.append((force, np.array(function.coefficients)))
@@ -95,13 +100,15 @@ def _forcing(problem: Problem) -> _core.Forcing:
 
 
 def _with_motions(
-    forcing: _core.Forcing, moved: list[tuple[int, Sequence[TimeFunction]]]
+    forcing: _core.Forcing, moved: list[tuple[int, Sequence[TimeFunction]]], duration: float
 ) -> _core.Forcing:
     """Return loads with the motions of obstacles, by the numbers of their laws."""
-    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
+    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable, resolved
 
     polynomials, harmonics, tables = [], [], []
-    for law, function in ((law, function) for law, functions in moved for function in functions):
+    for law, function in (
+        (law, term) for law, functions in moved for term in resolved(functions, duration)
+    ):
         match function:
             case Polynomial():
                 polynomials.append((law, np.array(function.coefficients)))

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 import numpy as np
 
 from bumpstop.arguments import FloatArray, all_of, listed, name, positive, refuse_twins
-from bumpstop.errors import InputError
+from bumpstop.errors import InputError, blamed
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.structure.gauge import Gauge
 
 if TYPE_CHECKING:
     from bumpstop import _core
     from bumpstop.laws.coordinate import Coordinate
-    from bumpstop.loads.time import TimeFunction
+    from bumpstop.loads.load import ForceComponent
 
 __all__ = ["InitialState", "Law", "Load", "Problem"]
 
@@ -50,18 +50,14 @@ class Law(Protocol):
 
 @runtime_checkable
 class Load(Protocol):
-    """A force that does not depend on the motion: a vector times functions of time."""
+    """A force that does not depend on the motion: vectors times functions of time."""
 
     @property
     def name(self) -> str:
         """What the load is called."""
 
-    @property
-    def functions(self) -> tuple[TimeFunction, ...]:
-        """The functions of time whose sum it is multiplied by; none where it is constant."""
-
-    def modal_force(self, basis: ModalBasis) -> FloatArray:
-        """Return the force on each mode (N,) where the function of time is one."""
+    def components(self, basis: ModalBasis) -> Sequence[ForceComponent]:
+        """Return the forces on each mode, each with its functions of time."""
 
 
 @runtime_checkable
@@ -198,16 +194,17 @@ class Problem:
                 # Few laws have it: an obstacle that moves.
                 motion = getattr(law, "functions", ())
                 if motion:
-                    from bumpstop.loads.time import check_span
+                    from bumpstop.loads.time import check_steady, resolved
 
-                    check_span(motion, self.duration, "motion")
+                    with blamed("motion"):
+                        check_steady(resolved(motion, self.duration), "motion")
         for load in self.loads:
             with _at(f"loads.{load.name}"):
-                load.modal_force(self.basis)
-                if load.functions:
-                    from bumpstop.loads.time import check_span
+                for component in load.components(self.basis):
+                    if component.functions:
+                        from bumpstop.loads.time import resolved
 
-                    check_span(load.functions, self.duration)
+                        resolved(component.functions, self.duration)
         for gauge in self.gauges:
             with _at(f"gauges.{gauge.name}"):
                 self.basis.gauge_row(gauge)

@@ -45,6 +45,7 @@ def test_terms_of_a_load_add_up(tmp_path: Path) -> None:
         'table = { times = [0, "500 ms"], values = [1, 3], scale = 2, beyond = "hold" }\n',
     )
     (push,) = problem.loads
+    assert isinstance(push, bs.NodalForce)
     times = np.array([0.25, 1.0])
     total = sum(function.at(times) for function in push.functions)
     turn = 2.0 * np.pi * times
@@ -168,3 +169,48 @@ def test_mistakes_are_named(tmp_path: Path, text: str, key: str, what: str) -> N
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(bs.InputError, match=r"nowhere\.csv: no such file"):
         case(tmp_path, LOAD + 'table = { file = "nowhere.csv" }\n')
+
+
+def test_a_load_may_sweep_and_follow_formulas_and_products(tmp_path: Path) -> None:
+    problem = case(
+        tmp_path,
+        '[loads.push]\ntype = "force"\nnode = "B"\nforce = [2, 0, 0]\n'
+        'sweeps = [{ frequencies = ["3 Hz", 8], duration = "1 s", phase = "90 deg" }]\n'
+        'expression = "exp(-t)"\n'
+        "product = [{ harmonics = [{ frequency = 4, sine = 1 }] }, "
+        '{ table = { times = [0, 2], values = [0, 1] }, expression = "t" }]\n'
+        "line_tolerance = 1e-3\n",
+    )
+    (push,) = problem.loads
+    assert isinstance(push, bs.NodalForce)
+    sweep, formula, product = push.functions
+    assert sweep == bs.Sweep((3.0, 8.0), duration=1.0, phase=np.pi / 2, tolerance=1e-3)
+    assert formula == bs.Expression("exp(-t)", tolerance=1e-3)
+    times = np.array([0.3, 1.1])
+    np.testing.assert_allclose(
+        product.at(times), np.sin(8 * np.pi * times) * 1.5 * times, rtol=1e-12
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('expression = "sin(x)"', r"loads\.push\.expression: unknown name .*'x'"),
+        ('expression = "1/t"', r"loads\.push\.table: has no finite value"),
+        ("product = [{ polynomial = [1] }]", r"loads\.push\.product: must be two functions"),
+        ("product = [{}, {}]", r"loads\.push\.product\.0: has no function of time"),
+        (
+            "sweeps = [{ frequencies = [0, 1], duration = 1, spacing = 'logarithmic' }]",
+            r"loads\.push\.sweeps\.0\.frequencies: must be positive",
+        ),
+        ('table = { file = "a.csv", units = ["ms"] }', r"push\.table\.units: must be two units"),
+        ('table = { file = "a.csv", units = ["mm", "N"] }', r"table\.units: .*a length, expected"),
+        ('table = { file = "a.csv", units = ["s", "Nn"] }', r"table\.units: unknown unit .*'Nn'"),
+        ('table = { times = [0], values = [0], units = ["s", "N"] }', r"units: is for a file"),
+    ],
+)
+def test_mistakes_of_functions_are_one_line(tmp_path: Path, text: str, message: str) -> None:
+    head = '[loads.push]\ntype = "force"\nnode = "B"\nforce = [2, 0, 0]\n'
+    with pytest.raises(bs.InputError, match=message) as caught:
+        case(tmp_path, f"{head}{text}\n")
+    assert "\n" not in str(caught.value)

@@ -22,6 +22,8 @@ def written(folder: Path, text: str) -> Path:
         "# a remark\n\n0.0; 1.0\n0.5; 2.0\n",
         "0.0\t1.0\n0.5  2.0\n% end\n",
         "time, value, other\n0.0, 1.0, 7\n0.5, 2.0, 8\n",
+        "Zeit;Kraft\n0,0;1,0\n0,5;2,0;\n",
+        "0,0\t1,0\n0,5\t2,0\n",
     ],
 )
 def test_columns_are_found(tmp_path: Path, text: str) -> None:
@@ -71,3 +73,9 @@ def test_mistakes_name_the_file(
 def test_a_missing_file_is_said(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such file"):
         read_time_table(tmp_path / "b.csv")
+
+
+def test_units_and_lines_passed_over(tmp_path: Path) -> None:
+    path = written(tmp_path, "recorded 2019\n1, 2, 3, 4\nt,F\n0,1\n5,2.5\n")
+    times, values = read_time_table(path, units=["ms", "kN"], skip=2)
+    assert (times.tolist(), values.tolist()) == ([0.0, 0.005], [1000.0, 2500.0])

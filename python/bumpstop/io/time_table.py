@@ -1,7 +1,8 @@
 """Functions of time in text files: accelerograms, histories of forces.
 
-Columns are parted by commas, semicolons or blanks; lines that begin with ``#`` or ``%`` are
-remarks, and a first line that holds no numbers names the columns.
+Columns are parted by semicolons where there are any, else by tabs, commas or blanks, and a comma
+between digits is a decimal one where semicolons or tabs part the columns. Lines that begin with
+``#`` or ``%`` are remarks, and a first line that holds no numbers names the columns.
 """
 
 from __future__ import annotations
@@ -13,17 +14,25 @@ from pathlib import Path
 import numpy as np
 
 from bumpstop.arguments import FloatArray, did_you_mean
-from bumpstop.errors import InputError
+from bumpstop.errors import InputError, blamed
 from bumpstop.io.reading import in_file, read_lines
+from bumpstop.io.units import Dimension, si_factor
 
 __all__ = ["read_time_table"]
 
 _PARTED = r"[,;\s]+"
+_DECIMAL_COMMA = r"(?<=\d),(?=\d)"
 _REMARKS = ("#", "%")
+_TIME = Dimension("a time", "s", "10 ms")
 
 
 def read_time_table(
-    path: Path, *, columns: Sequence[float | str] | None = None, step: float | None = None
+    path: Path,
+    *,
+    columns: Sequence[float | str] | None = None,
+    step: float | None = None,
+    units: Sequence[str] | None = None,
+    skip: int = 0,
 ) -> tuple[FloatArray, FloatArray]:
     """Read times and values.
 
@@ -35,6 +44,10 @@ def read_time_table(
         Of times and of values, by number from 1 or by name; the first two where left out.
     step
         Time between values in s, for a file without times: all its numbers are values.
+    units
+        Those of times and of values; SI where left out.
+    skip
+        How many lines at the head of the file are passed over.
 
     Returns
     -------
@@ -44,10 +57,23 @@ def read_time_table(
     Raises
     ------
     InputError
-        If the file cannot be read, has no such columns, or a line holds something else.
+        If the file cannot be read, has no such columns, a line holds something else, or a unit
+        is unknown.
     """
+    in_time, in_value = 1.0, 1.0
+    if units is not None:
+        with blamed("units"):
+            in_time, in_value = si_factor(units[0], _TIME), si_factor(units[1])
+    times, values = _read(path, columns, step, skip)
+    return times if step is not None else in_time * times, in_value * values
+
+
+def _read(
+    path: Path, columns: Sequence[float | str] | None, step: float | None, skip: int
+) -> tuple[FloatArray, FloatArray]:
+    """Return times and values as the file has them."""
     with in_file(path):
-        rows = _rows(path)
+        rows = _rows(path, skip)
         names = [] if not rows or _is_numbers(rows[0][1]) else rows.pop(0)[1]
         if not rows:
             raise InputError("holds no numbers", hint="one line for each time, like '0.01, 2.5'")
@@ -67,15 +93,16 @@ def read_time_table(
         return np.ascontiguousarray(table[:, 0]), np.ascontiguousarray(table[:, 1])
 
 
-def _rows(path: Path) -> list[tuple[int, list[str]]]:
+def _rows(path: Path, skip: int) -> list[tuple[int, list[str]]]:
     """Return the lines that are no remarks, in words, with their numbers."""
-    parted = re.compile(_PARTED)
     lines = ((n, line.strip()) for n, line in enumerate(read_lines(path, "a table"), start=1))
-    return [
-        (n, parted.split(line.strip(",;")))
-        for n, line in lines
-        if line and not line.startswith(_REMARKS)
-    ]
+    kept = [(n, line) for n, line in lines if n > skip and line and not line.startswith(_REMARKS)]
+    mark = next((mark for mark in (";", "\t") if any(mark in line for _, line in kept)), None)
+    if mark is None or not any(re.search(_DECIMAL_COMMA, line) for _, line in kept):
+        parted = re.compile(_PARTED)
+        return [(n, parted.split(line.strip(",;"))) for n, line in kept]
+    with_points = ((n, re.sub(_DECIMAL_COMMA, ".", line).strip(mark)) for n, line in kept)
+    return [(n, [word.strip() for word in line.split(mark)]) for n, line in with_points]
 
 
 def _places(columns: Sequence[float | str] | None, names: list[str], count: int) -> tuple[int, int]:

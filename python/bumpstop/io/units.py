@@ -17,9 +17,9 @@ from bumpstop.errors import InputError
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from pint import UnitRegistry
+    from pint import Unit, UnitRegistry
 
-__all__ = ["Dimension", "read_quantity"]
+__all__ = ["Dimension", "read_quantity", "si_factor"]
 
 # Compiled by the functions that use them, since most case files have no unit.
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
@@ -86,6 +86,38 @@ def read_quantity(text: str, dimension: Dimension) -> float:
     return _in_range(text, Fraction(number) * _factor(text, unit, dimension))
 
 
+def si_factor(unit: str, dimension: Dimension | None = None) -> float:
+    """Return what a number in a unit is multiplied by to be in SI units.
+
+    Parameters
+    ----------
+    unit
+        ``"kN"``: a unit that pint knows.
+    dimension
+        What it must measure; anything where left out.
+
+    Raises
+    ------
+    InputError
+        If the unit is unknown, or measures something else.
+
+    Examples
+    --------
+    >>> si_factor("kN"), si_factor("mm/s^2")
+    (1000.0, 0.001)
+    """
+    if dimension is not None:
+        return _in_range(unit, _factor(unit, unit, dimension))
+    from fractions import Fraction
+
+    try:
+        return _in_range(unit, Fraction(_registry().Quantity(1, _parsed(unit)).to_base_units().m))
+    except InputError:
+        raise
+    except Exception as error:  # as below
+        raise InputError("unknown unit", value=unit, hint="such as 'kN' or 'mm/s^2'") from error
+
+
 def _in_range(text: str, exact: Fraction) -> float:
     try:
         return float(exact)
@@ -97,12 +129,8 @@ def _factor(text: str, unit: str, dimension: Dimension) -> Fraction:
     from fractions import Fraction
 
     registry = _registry()
-    # "m2" is how people write square metres, but a name to pint.
-    written = re.sub(_BARE_EXPONENT, r"**\1", unit)
     try:
-        if unit and not re.fullmatch(_UNIT, unit):
-            raise ValueError(unit)
-        found = registry.parse_units(written)
+        found = _parsed(unit)
     except Exception as error:  # pint lets errors of tokenize, asserts and TypeErrors through
         raise _refused(text, f"unknown unit {unit!r}", dimension) from error
     if found.dimensionality != registry.parse_units(dimension.unit).dimensionality:
@@ -112,6 +140,14 @@ def _factor(text: str, unit: str, dimension: Dimension) -> Fraction:
         # pint takes 1 Hz as 1/s, which would be wrong by 2 pi.
         raise _wrong_unit(text, unit, "a frequency", dimension)
     return Fraction(one.to(dimension.unit).magnitude)
+
+
+def _parsed(unit: str) -> Unit:
+    """Return a unit as pint knows it."""
+    if unit and not re.fullmatch(_UNIT, unit):
+        raise ValueError(unit)
+    # "m2" is how people write square metres, but a name to pint.
+    return _registry().parse_units(re.sub(_BARE_EXPONENT, r"**\1", unit))
 
 
 def _refused(text: str, what: str, dimension: Dimension) -> InputError:

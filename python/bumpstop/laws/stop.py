@@ -62,7 +62,7 @@ class Stop(Contact):
         Shape of the obstacle: ``"plane"``.
     motion
         How far the obstacle moves along its normal, in m over time: a `Harmonic`, a `Polynomial`,
-        a `TimeTable` without jumps, or a list of them, which add up.
+        a `TimeTable` without jumps, another function of time, or a list of them, which add up.
     friction
         Coefficient of friction, or ``{"static": ..., "dynamic": ...}``.
     sliding
@@ -106,10 +106,9 @@ class Stop(Contact):
         object.__setattr__(self, "tangential_damping", damping)
         self._check_friction()
         if self.motion != ():
-            from bumpstop.loads.time import check_steady, time_functions
+            from bumpstop.loads.time import time_functions
 
             object.__setattr__(self, "motion", time_functions(self.motion, "motion"))
-            check_steady(self.functions, "motion")
 
     @property
     def functions(self) -> tuple[TimeFunction, ...]:

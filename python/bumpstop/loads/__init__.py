@@ -8,21 +8,27 @@ from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
     from bumpstop.loads.base_motion import BaseMotion
+    from bumpstop.loads.expression import Expression
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
+    from bumpstop.loads.product import Product
+    from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.loads.translation import RigidTranslation
 
 __all__ = [
     "BaseMotion",
+    "Expression",
     "Gravity",
     "Harmonic",
     "ModalState",
     "NodalForce",
     "Polynomial",
+    "Product",
     "RigidRotation",
     "RigidTranslation",
+    "Sweep",
     "TimeTable",
 ]
 
@@ -30,13 +36,16 @@ __getattr__ = lazy_names(
     __name__,
     {
         "BaseMotion": "base_motion",
+        "Expression": "expression",
         "Gravity": "gravity",
         "Harmonic": "time",
         "ModalState": "initial",
         "NodalForce": "force",
         "Polynomial": "time",
+        "Product": "product",
         "RigidRotation": "initial",
         "RigidTranslation": "translation",
+        "Sweep": "sweep",
         "TimeTable": "time",
     },
 )

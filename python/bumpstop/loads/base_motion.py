@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop.arguments import FloatArray, Vector, name, vector
 from bumpstop.loads.inertia import mass_times
+from bumpstop.loads.load import SingleLoad
 from bumpstop.loads.time import TimeFunction, time_functions
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ __all__ = ["BaseMotion"]
 
 
 @dataclass(frozen=True)
-class BaseMotion:
+class BaseMotion(SingleLoad):
     """A translation of all supports, such as an earthquake's; stops move with the supports.
 
     Displacements, velocities and accelerations of the response are relative to the supports.

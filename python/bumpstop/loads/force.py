@@ -7,6 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING
 
 from bumpstop.arguments import FloatArray, Vector, name, vector
+from bumpstop.loads.load import SingleLoad
 from bumpstop.loads.time import TimeFunction, time_functions
 from bumpstop.projection import ROTATIONS, direction_row
 
@@ -17,7 +18,7 @@ __all__ = ["NodalForce"]
 
 
 @dataclass(frozen=True)
-class NodalForce:
+class NodalForce(SingleLoad):
     """A force, and a moment where one is given, on one node from t = 0 on.
 
     Parameters

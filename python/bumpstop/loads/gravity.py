@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop.arguments import FloatArray, Vector, name, vector
 from bumpstop.loads.inertia import mass_times
+from bumpstop.loads.load import SingleLoad
 
 if TYPE_CHECKING:
     from bumpstop.loads.time import TimeFunction
@@ -16,7 +17,7 @@ __all__ = ["Gravity"]
 
 
 @dataclass(frozen=True)
-class Gravity:
+class Gravity(SingleLoad):
     """The weight of the structure, from t = 0 on: the mass matrix times an acceleration.
 
     Parameters

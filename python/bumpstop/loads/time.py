@@ -1,11 +1,15 @@
-"""Functions of time that loads are multiplied by: harmonics, polynomials, tables."""
+"""Functions of time that loads are multiplied by, and those that the core follows exactly.
+
+The core follows *terms*: harmonics, polynomials, and tables with straight lines. Every other
+function says of which terms it is the sum over a run (`TimeFunction.terms`).
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, field
-from typing import TypeAlias
+from typing import Protocol, Self, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -15,10 +19,12 @@ from bumpstop.errors import InputError
 __all__ = [
     "Harmonic",
     "Polynomial",
+    "Term",
     "TimeFunction",
     "TimeTable",
     "check_span",
     "check_steady",
+    "resolved",
     "scaled",
     "time_functions",
 ]
@@ -29,8 +35,36 @@ HIGHEST_DEGREE = 5
 BEYOND = ("zero", "hold")
 
 
+@runtime_checkable
+class TimeFunction(Protocol):
+    """A function of time."""
+
+    @property
+    def words(self) -> str:
+        """What it is, in a few words."""
+
+    def at(self, times: FloatArray) -> FloatArray:
+        """Return its values at some times in s from the start of the run."""
+
+    def terms(self, duration: float) -> tuple[Term, ...]:
+        """Return the terms whose sum it is, or is to its tolerance, from 0 to a duration in s."""
+
+
+class _Term:
+    """A function that the core follows as it is."""
+
+    @property
+    def words(self) -> str:
+        """What it is, in a few words."""
+        return type(self).__name__.lower()
+
+    def terms(self, duration: float) -> tuple[Self, ...]:  # noqa: ARG002  # the same for any
+        """Return the function itself."""
+        return (self,)
+
+
 @dataclass(frozen=True)
-class Harmonic:
+class Harmonic(_Term):
     """An oscillation, ``cosine cos(2 pi f t) + sine sin(2 pi f t)``, t from the start of the run.
 
     Parameters
@@ -83,7 +117,7 @@ class Harmonic:
 
 
 @dataclass(frozen=True)
-class Polynomial:
+class Polynomial(_Term):
     """A polynomial ``c[0] + c[1] t + c[2] t^2 + ...``, t in s from the start of the run.
 
     Parameters
@@ -120,7 +154,7 @@ class Polynomial:
 
 
 @dataclass(frozen=True, eq=False)
-class TimeTable:
+class TimeTable(_Term):
     """Straight lines between given values, such as an accelerogram.
 
     Two equal times are a jump; at that instant the second value holds. The exact method follows
@@ -183,7 +217,21 @@ class TimeTable:
         return np.where((place == 0) | (place == len(knots)), 0.0, found)
 
 
-TimeFunction: TypeAlias = Harmonic | Polynomial | TimeTable
+Term: TypeAlias = Harmonic | Polynomial | TimeTable
+"""What the core follows without error."""
+
+
+def resolved(functions: Sequence[TimeFunction], duration: float) -> tuple[Term, ...]:
+    """Return the terms whose sum some functions are over a run.
+
+    Raises
+    ------
+    InputError
+        If a function cannot be told by terms, or a table does not cover the run.
+    """
+    terms = tuple(term for function in functions for term in function.terms(duration))
+    check_span(terms, duration)
+    return terms
 
 
 def time_functions(value: object, key: str = "time") -> tuple[TimeFunction, ...]:
@@ -198,15 +246,16 @@ def time_functions(value: object, key: str = "time") -> tuple[TimeFunction, ...]
         return ()
     given = value if isinstance(value, list | tuple) else (value,)
     for each in given:
-        if not isinstance(each, Harmonic | Polynomial | TimeTable):
-            what = "must be a Harmonic, a Polynomial, a TimeTable or a list of them"
+        if not isinstance(each, TimeFunction):
+            what = "must be a Harmonic, a Polynomial, a TimeTable, another function of time, "
+            what += "or a list of them"
             raise InputError(what, key=key, value=each)
     if not given:
         raise InputError("must not be empty", key=key, value=value, hint="leave it out")
     return tuple(given)
 
 
-def check_span(functions: Sequence[TimeFunction], duration: float, key: str = "time") -> None:
+def check_span(functions: Sequence[Term], duration: float, key: str = "time") -> None:
     """Refuse a table that does not cover the run and does not say what it is beyond its ends.
 
     Raises
@@ -225,7 +274,7 @@ def check_span(functions: Sequence[TimeFunction], duration: float, key: str = "t
             raise InputError(what, key=key, value=value, hint=hint)
 
 
-def check_steady(functions: Sequence[TimeFunction], key: str) -> None:
+def check_steady(functions: Sequence[Term], key: str) -> None:
     """Refuse a table that jumps, within its times or at its ends.
 
     Raises
@@ -259,8 +308,12 @@ def scaled(function: TimeFunction, factor: float) -> TimeFunction:
         return Harmonic(function.frequency, cosine=cosine, sine=sine)
     if isinstance(function, Polynomial):
         return Polynomial([factor * c for c in function.coefficients])
-    values = factor * np.asarray(function.values)
-    return TimeTable(function.times, values, beyond=function.beyond)
+    if isinstance(function, TimeTable):
+        values = factor * np.asarray(function.values)
+        return TimeTable(function.times, values, beyond=function.beyond)
+    from bumpstop.loads.product import Product
+
+    return Product([Polynomial([factor]), function])
 
 
 def _column(key: str, value: object) -> FloatArray:

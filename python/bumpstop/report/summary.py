@@ -268,6 +268,7 @@ def _function(function: TimeFunction) -> str:
         case TimeTable():
             first, last = (with_unit(float(function.times[end]), "s") for end in (0, -1))
             return f"a table of {len(function.times):,} values from {first} to {last}"
+    return function.words
 
 
 def _initial(initial: InitialState | None) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop import loads
 from bumpstop.io.case.keys import keyed
+from bumpstop.io.case.tables.table import written_keys
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.base_motion import BaseMotionTable
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 __all__ = ["BASE_MOTION", "built_loads"]
 
+_TIMES = frozenset(("harmonics", "polynomial", "table", "sweeps", "expression", "product"))
+"""Keys of a load that say how it changes."""
 BASE_MOTION = "base_motion"
 """Table of the motion of the supports, and the name of the load that it makes."""
 
@@ -45,7 +48,7 @@ def _base_motion(table: BaseMotionTable, folder: Path) -> Load:
 
 
 def _time(table: TimeKeys, folder: Path) -> list[TimeFunction] | None:
-    if not (table.harmonics or table.polynomial or table.table):
+    if not written_keys(table) & _TIMES:
         return None
     from bumpstop.io.case.build.time import built_time
 

@@ -21,6 +21,7 @@ __all__ = [
     "Force",
     "Force3",
     "Frequency",
+    "Frequency2",
     "Length",
     "Length2",
     "Length3",
@@ -37,6 +38,7 @@ __all__ = [
     "Pressure",
     "Ratio",
     "Stiffness",
+    "Time",
     "Times",
     "Velocity3",
     "Written",
@@ -183,6 +185,8 @@ Mass = Annotated[float, _quantity(_MASS, least=0)]
 Stiffness = Annotated[float, _quantity(_STIFFNESS, above=0)]
 DampingConstant = Annotated[float, _quantity(_DAMPING, least=0)]
 Frequency = Annotated[float, _quantity(_FREQUENCY, above=0)]
+Frequency2 = Annotated[tuple[float, float], _vector(_FREQUENCY, length=2)]
+Time = Annotated[float, _quantity(_TIME, least=0)]
 PositiveTime = Annotated[float, _quantity(_TIME, above=0)]
 Number = Annotated[float, _quantity(_NUMBER)]
 PositiveNumber = Annotated[float, _quantity(_NUMBER, above=0)]

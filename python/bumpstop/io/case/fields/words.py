@@ -23,6 +23,7 @@ __all__ = [
     "Nodes",
     "OneDof",
     "Text",
+    "Units",
     "choice",
     "read_node",
 ]
@@ -109,6 +110,13 @@ def _read_dofs(value: object) -> list[str]:
     return read_list(value, choice(*DOFS).read, "dofs")
 
 
+def _read_units(value: object) -> list[str]:
+    units = read_list(value, _read_text, "units")
+    if len(units) != 2:
+        raise InputError("must be two units, of times and of values", value=value)
+    return units
+
+
 _STRING = {"type": "string"}
 _STRINGS = {"type": "array", "items": _STRING, "minItems": 1}
 
@@ -123,5 +131,6 @@ Node = Annotated[str, Plain(read_node, {**_STRING, "examples": ["B", "AB.3", "AB
 Nodes = Annotated[list[str], Plain(_read_nodes, {"anyOf": [{"const": "all"}, _STRINGS]})]
 BeamEnds = Annotated[tuple[str, str], Plain(_read_ends, {**_STRINGS, "minItems": 2, "maxItems": 2})]
 LinkedNodes = Annotated[tuple[str, ...], Plain(_read_linked, {**_STRINGS, "minItems": 2})]
+Units = Annotated[list[str], Plain(_read_units, {**_STRINGS, "minItems": 2, "maxItems": 2})]
 OneDof = Annotated[str, choice(*DOFS)]
 Dofs = Annotated[list[str], Plain(_read_dofs, {**_STRINGS, "items": {"enum": list(DOFS)}})]

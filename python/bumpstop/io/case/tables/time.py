@@ -2,18 +2,23 @@
 
 from typing import Annotated
 
+from bumpstop.io.case.fields.counts import CountFromZero
 from bumpstop.io.case.fields.quantities import (
+    Angle,
     Frequency,
+    Frequency2,
     Number,
     Numbers,
+    PositiveNumber,
     PositiveTime,
+    Time,
     Times,
     WrittenList,
 )
-from bumpstop.io.case.fields.words import Text, choice
+from bumpstop.io.case.fields.words import Text, Units, choice
 from bumpstop.io.case.tables.table import Field, Table
 
-__all__ = ["HarmonicTable", "TimeKeys", "TimeTableTable"]
+__all__ = ["FactorTable", "HarmonicTable", "SweepTable", "TimeKeys", "TimeTableTable"]
 
 
 class HarmonicTable(Table):
@@ -22,6 +27,20 @@ class HarmonicTable(Table):
     frequency: Frequency = Field(description="Its frequency f, in Hz")
     cosine: Number = Field(default=0.0, description="Amplitude of the cosine")
     sine: Number = Field(default=0.0, description="Amplitude of the sine")
+
+
+class SweepTable(Table):
+    """A sine whose frequency rises or falls; zero before it begins and after it ends."""
+
+    frequencies: Frequency2 = Field(description="At its begin and at its end, in Hz")
+    duration: PositiveTime = Field(description="How long it takes, in s")
+    spacing: Annotated[str, choice("linear", "logarithmic")] = Field(
+        default="linear",
+        description="Whether the frequency goes in proportion to time, or by octaves",
+    )
+    amplitude: Number = Field(default=1.0, description="Its amplitude")
+    phase: Angle = Field(default=0.0, description="Where in its period it begins, in rad")
+    start: Time = Field(default=0.0, description="When it begins, in s from the start of the run")
 
 
 class TimeTableTable(Table):
@@ -34,6 +53,14 @@ class TimeTableTable(Table):
         default=None,
         description="Columns of the file that hold times and values, by number from 1 or by "
         "their names in its first line; the first two where left out",
+    )
+    units: Units | None = Field(
+        default=None,
+        description='Units of the times and values of the file, such as ["ms", "kN"]; SI where '
+        "left out",
+    )
+    skip: CountFromZero = Field(
+        default=0, description="How many lines at the head of the file are passed over"
     )
     step: PositiveTime | None = Field(
         default=None,
@@ -50,8 +77,8 @@ class TimeTableTable(Table):
     )
 
 
-class TimeKeys(Table):
-    """What a load is multiplied by: the sum of all that is given, or one."""
+class FactorTable(Table):
+    """A function of time: the sum of all that is given."""
 
     harmonics: list[HarmonicTable] = Field(default=[], description="Oscillations")
     polynomial: Numbers | None = Field(
@@ -60,3 +87,23 @@ class TimeKeys(Table):
         "degree 5 at most",
     )
     table: TimeTableTable | None = Field(default=None, description="A table of values over time")
+    sweeps: list[SweepTable] = Field(default=[], description="Sines whose frequency rises or falls")
+    expression: Text | None = Field(
+        default=None,
+        description='A formula in the time t in s, such as "exp(-3 * t) * sin(20 * t)": numbers, '
+        "+ - * / **, pi, e, sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs min "
+        "max, and step(x), which is 1 from x = 0 on",
+    )
+
+
+class TimeKeys(FactorTable):
+    """What a load is multiplied by: the sum of all that is given, or one."""
+
+    product: list[FactorTable] = Field(
+        default=[], description="Functions of time whose product is added to the sum"
+    )
+    line_tolerance: PositiveNumber = Field(
+        default=1e-4,
+        description="How far straight lines may stray from sweeps, expressions and products that "
+        "need them, relative to the largest value",
+    )
