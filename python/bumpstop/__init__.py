@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
+    from bumpstop.loads.line_force import LineForce
     from bumpstop.loads.product import Product
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
@@ -91,6 +92,7 @@ __all__ = [
     "Harmonic",
     "InputError",
     "Joint",
+    "LineForce",
     "LowestModes",
     "Material",
     "Matrices",
@@ -164,6 +166,7 @@ _HOME = {
     "Harmonic": "loads.time",
     "InputError": "errors",
     "Joint": "modal.substructure.joint",
+    "LineForce": "loads.line_force",
     "LowestModes": "modal.selection",
     "Material": "structure.material",
     "Matrices": "structure.matrices",

@@ -214,3 +214,58 @@ def test_mistakes_of_functions_are_one_line(tmp_path: Path, text: str, message: 
     with pytest.raises(bs.InputError, match=message) as caught:
         case(tmp_path, f"{head}{text}\n")
     assert "\n" not in str(caught.value)
+
+
+BEAM = """
+[nodes]
+A = [0, 0, 0]
+B = ["1.2 m", 0, 0]
+[materials.steel]
+young_modulus = "210 GPa"
+poisson_ratio = 0.25
+density = 7800
+[sections.bar]
+shape = "rectangle"
+height = "30 mm"
+width = "20 mm"
+[beams.AB]
+nodes = ["A", "B"]
+elements = 3
+material = "steel"
+section = "bar"
+[[supports]]
+nodes = ["A"]
+fixed = ["dx", "dy", "dz", "drx", "dry", "drz"]
+[run]
+duration = "10 ms"
+"""
+
+
+def test_loads_along_beams_and_their_static_shapes(tmp_path: Path) -> None:
+    text = (
+        '[basis]\nmodes = 2\nload_shapes = ["wind"]\n'
+        '[loads.wind]\ntype = "line_force"\nbeam = "AB"\nforce = [0, "0.1 kN/m", 0]\n'
+        'end_force = [0, 30, 0]\nstart = "20 cm"\nend = 1\naxes = "local"\n'
+        "harmonics = [{ frequency = 30, sine = 1 }]\n"
+        '[loads.weight]\ntype = "gravity"\nacceleration = [0, 0, -9.81]\n'
+    )
+    (tmp_path / "case.toml").write_text(BEAM + text)
+    problem = bs.load_case(tmp_path / "case.toml").problems["base"]
+    wind = bs.LineForce(
+        "wind",
+        beam="AB",
+        force=(0, 100.0, 0),
+        end_force=(0, 30.0, 0),
+        start=0.2,
+        end=1.0,
+        axes="local",
+        time=[bs.Harmonic(30.0, sine=1.0)],
+    )
+    assert problem.loads[0] == wind
+    assert problem.basis.labels == ("mode 1", "mode 2", "static shape of load wind")
+    (tmp_path / "case.toml").write_text(BEAM + text.replace('["wind"]', '["wand"]'))
+    with pytest.raises(bs.InputError, match=r"basis\.load_shapes: unknown .*mean 'wind'"):
+        bs.load_case(tmp_path / "case.toml")
+    (tmp_path / "case.toml").write_text(BEAM + text.replace('["wind"]', '"all"'))
+    problem = bs.load_case(tmp_path / "case.toml").problems["base"]
+    assert len(problem.basis.labels) == 4

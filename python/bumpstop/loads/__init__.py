@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
+    from bumpstop.loads.line_force import LineForce
     from bumpstop.loads.product import Product
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
@@ -22,6 +23,7 @@ __all__ = [
     "Expression",
     "Gravity",
     "Harmonic",
+    "LineForce",
     "ModalState",
     "NodalForce",
     "Polynomial",
@@ -39,6 +41,7 @@ __getattr__ = lazy_names(
         "Expression": "expression",
         "Gravity": "gravity",
         "Harmonic": "time",
+        "LineForce": "line_force",
         "ModalState": "initial",
         "NodalForce": "force",
         "Polynomial": "time",

@@ -13,6 +13,7 @@ from bumpstop.loads.time import TimeFunction, time_functions
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.model import LinearModel
 
 __all__ = ["BaseMotion"]
 
@@ -74,3 +75,7 @@ class BaseMotion(SingleLoad):
             If the basis was not made from a structure, so that it has no mass matrix.
         """
         return -mass_times(self.acceleration, basis)
+
+    def nodal_force(self, model: LinearModel) -> FloatArray:
+        """Return the inertia force on each dof (dofs,) where the function of time is one."""
+        return -(model.mass @ model.rigid_field(translation=self.acceleration))

@@ -6,13 +6,17 @@ from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from bumpstop.arguments import FloatArray, Vector, name, vector
 from bumpstop.loads.load import SingleLoad
 from bumpstop.loads.time import TimeFunction, time_functions
 from bumpstop.projection import ROTATIONS, direction_row
+from bumpstop.structure.dofs import DOFS
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.model import LinearModel
 
 __all__ = ["NodalForce"]
 
@@ -75,3 +79,18 @@ class NodalForce(SingleLoad):
         """
         force = direction_row(basis, self.node, self.force)
         return force + direction_row(basis, self.node, self.moment, ROTATIONS)
+
+    def nodal_force(self, model: LinearModel) -> FloatArray:
+        """Return the force on each dof of a model, (dofs,), where the function of time is one.
+
+        Raises
+        ------
+        InputError
+            If the model has no such node.
+        """
+        total = np.zeros(len(model.dofs))
+        for dof, component in zip(DOFS, (*self.force, *self.moment), strict=True):
+            if component != 0.0:
+                form = model.displacement_form(self.node, dof)
+                np.add.at(total, form.dofs, component * form.weights)
+        return total

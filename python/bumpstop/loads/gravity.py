@@ -12,6 +12,7 @@ from bumpstop.loads.load import SingleLoad
 if TYPE_CHECKING:
     from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.model import LinearModel
 
 __all__ = ["Gravity"]
 
@@ -60,3 +61,7 @@ class Gravity(SingleLoad):
             If the basis was not made from a structure, so that it has no mass matrix.
         """
         return mass_times(self.acceleration, basis)
+
+    def nodal_force(self, model: LinearModel) -> FloatArray:
+        """Return the weight on each dof of a model, (dofs,)."""
+        return model.mass @ model.rigid_field(translation=self.acceleration)

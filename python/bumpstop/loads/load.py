@@ -5,11 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from bumpstop.arguments import FloatArray
 
 if TYPE_CHECKING:
     from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.model import LinearModel
 
 __all__ = ["ForceComponent", "SingleLoad"]
 
@@ -34,6 +37,14 @@ class SingleLoad(ABC):
     @abstractmethod
     def modal_force(self, basis: ModalBasis) -> FloatArray:
         """Return the force on each mode (N,) where the function of time is one."""
+
+    @abstractmethod
+    def nodal_force(self, model: LinearModel) -> FloatArray:
+        """Return the force on each dof of a model, (dofs,), where the function of time is one."""
+
+    def nodal_forces(self, model: LinearModel) -> FloatArray:
+        """Return the same as a column, (dofs, 1)."""
+        return self.nodal_force(model)[:, np.newaxis]
 
     def components(self, basis: ModalBasis) -> tuple[ForceComponent, ...]:
         """Return the force on each mode with its functions of time."""

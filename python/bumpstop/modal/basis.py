@@ -29,6 +29,7 @@ from bumpstop.structure.structure import Structure
 
 # What a run from a structure's modes alone has no use for is imported where it is used.
 if TYPE_CHECKING:
+    from bumpstop.modal.companions import SpatialLoad
     from bumpstop.modal.coordinates import UserCoordinates
 
 __all__ = ["COMBINATION", "ModalBasis", "mode_labels"]
@@ -107,6 +108,7 @@ class ModalBasis:
         static_shapes: Sequence[Place] = (),
         constraint_shapes: Sequence[Place] = (),
         base_shapes: Sequence[str] = (),
+        load_shapes: Sequence[SpatialLoad] = (),
         static_damping: float | None = None,
         rigid_modes: int | None = None,
     ) -> ModalBasis:
@@ -135,6 +137,9 @@ class ModalBasis:
         base_shapes
             Directions ``dx dy dz drx dry drz``: the displacement under a steady acceleration
             of the base in each, less what the modes have of it, joins the basis.
+        load_shapes
+            Loads: the static displacement under each, less what the modes have of it, joins the
+            basis, so that what the modes left out would give way to it is not lost.
         static_damping
             Ratio of critical damping of the static shapes, at the frequency that each has in
             the canonical form; that of the modes where left out.
@@ -154,7 +159,7 @@ class ModalBasis:
         selection = mode_selection(modes)
         omega2, shapes, sturm = model_modes(structure, selection)
         require_modes(len(omega2), selection)
-        if not (static_shapes or constraint_shapes or base_shapes):
+        if not (static_shapes or constraint_shapes or base_shapes or load_shapes):
             ratios = with_companions(damping, static_damping, len(omega2), 0)
             plain = cls._from_shapes(structure, omega2, shapes, ratios, damping_coupling)
             return replace(plain, sturm=sturm)
@@ -166,6 +171,7 @@ class ModalBasis:
             static_shapes=static_shapes,
             constraint_shapes=constraint_shapes,
             base_shapes=base_shapes,
+            load_shapes=load_shapes,
         )
         number, more = len(omega2), len(beside.omega2)
         basis = cls._from_shapes(

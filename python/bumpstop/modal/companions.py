@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -16,7 +16,18 @@ from bumpstop.modal.vectors import canonical_vectors
 from bumpstop.structure.dofs import DOFS, Place
 from bumpstop.structure.model import LinearModel
 
-__all__ = ["Companions", "companions"]
+__all__ = ["Companions", "SpatialLoad", "companions"]
+
+
+class SpatialLoad(Protocol):
+    """A load whose forces on a model are known."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+
+    def nodal_forces(self, model: LinearModel) -> FloatArray:
+        """Return the forces on each dof, one a column, (dofs, n)."""
 
 
 class Companions(NamedTuple):
@@ -41,6 +52,7 @@ def companions(
     static_shapes: Sequence[Place] = (),
     constraint_shapes: Sequence[Place] = (),
     base_shapes: Sequence[str] = (),
+    load_shapes: Sequence[SpatialLoad] = (),
 ) -> Companions:
     """Return what static shapes have beyond modes, as shapes of a basis.
 
@@ -59,6 +71,8 @@ def companions(
         Places that move by one while the others are held: constraint modes.
     base_shapes
         Directions in which the base accelerates: pseudo-modes.
+    load_shapes
+        Loads whose static displacements are meant.
 
     Raises
     ------
@@ -70,6 +84,7 @@ def companions(
         *_attachment(static, model, static_shapes, modes),
         *_constraint(static, model, constraint_shapes, modes),
         *_base(static, model, base_shapes, modes),
+        *_loads(static, model, load_shapes, modes),
     ]
     fresh = [shape for shape in found if shape.norm > NEGLIGIBLE * shape.whole]
     labels = [shape.label for shape in fresh]
@@ -138,6 +153,17 @@ def _base(
             one_of("direction", name, DOFS)
     labels = [f"base acceleration along {name}" for name in names]
     return _shapes(model, labels, static.base(names), static.base(names, modes))
+
+
+def _loads(
+    static: StaticShapes, model: LinearModel, loads: Sequence[SpatialLoad], modes: FloatArray
+) -> list[_Shape]:
+    found = []
+    for load in listed("load_shapes", loads):
+        forces = load.nodal_forces(model)
+        labels = [f"static shape of load {load.name}"] * forces.shape[1]
+        found += _shapes(model, labels, static.under(forces), static.under(forces, modes))
+    return found
 
 
 def _shapes(

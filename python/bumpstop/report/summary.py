@@ -248,7 +248,8 @@ def _load(load: Load) -> str:
     if isinstance(load, BaseMotion):
         acceleration = _vector(load.acceleration, "m/s²")
         return f"{load.name}: acceleration of all supports {acceleration}{_times(load.functions)}"
-    return load.name
+    words: str = getattr(load, "words", "")
+    return f"{load.name}: {words}" if words else load.name
 
 
 def _times(functions: Sequence[TimeFunction]) -> str:

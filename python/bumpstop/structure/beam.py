@@ -200,6 +200,10 @@ class Beam:
             strain = self._element.axial_strain(xi, fibre, length, self.slice_at(0.0))
         return LinearForm(self._element_dofs(mesh)[element], strain @ self._to_local(mesh))
 
+    def axes(self, mesh: Mesh) -> FloatArray:
+        """Return the unit vectors of its local axes, one a row, (3, 3)."""
+        return local_axes(*self._ends(mesh), self.roll)
+
     def position(self, mesh: Mesh, at: float) -> Vector:
         """Return the place ``at`` m along the beam, in m."""
         element, xi = self._locate(mesh, at)
@@ -250,8 +254,7 @@ class Beam:
 
     def _to_local(self, mesh: Mesh) -> FloatArray:
         """Return the matrix that turns an element's dofs from global to local axes, (12, 12)."""
-        axes = local_axes(*self._ends(mesh), self.roll)
-        return np.kron(np.eye(4), axes).astype(np.float64)
+        return np.kron(np.eye(4), self.axes(mesh)).astype(np.float64)
 
     def _locate(self, mesh: Mesh, at: float) -> tuple[int, float]:
         """Return the element ``at`` m along the beam, and how far along in it, 0 to 1."""

@@ -112,6 +112,9 @@ class BeamModel(Protocol):
     def beam_nodes(self, beam: str) -> tuple[str, ...]:
         """Return the nodes of a beam, from end to end."""
 
+    def beam_axes(self, beam: str) -> FloatArray:
+        """Return the unit vectors of a beam's local axes, one a row, (3, 3)."""
+
 
 @runtime_checkable
 class StrainModel(Protocol):

@@ -228,6 +228,16 @@ class Structure:
         found = self._beam(beam, "beams")
         return (found.nodes[0], *found.inner_nodes, found.nodes[1])
 
+    def beam_axes(self, beam: str) -> FloatArray:
+        """Return the unit vectors of a beam's local axes x, y, z, one a row, (3, 3).
+
+        Raises
+        ------
+        InputError
+            If the beam is unknown.
+        """
+        return self._beam(beam, "beams").axes(self.mesh)
+
     def position(self, node: str) -> Vector:
         """Return where a node, or a point along a beam, is at rest, in m.
 

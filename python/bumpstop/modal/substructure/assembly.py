@@ -225,6 +225,17 @@ class Assembly:
         part, inner = self._split(beam, "beams")
         return self._parts[part].beam_nodes(inner)
 
+    def beam_axes(self, beam: str) -> FloatArray:
+        """Return the local axes of a beam, ``"left.AB"``, one a row, (3, 3).
+
+        Raises
+        ------
+        InputError
+            If the part or the beam is unknown.
+        """
+        part, inner = self._split(beam, "beams")
+        return self._parts[part].beam_axes(inner)
+
     def position(self, node: str) -> Vector:
         """Return where a node, or a point along a beam, is at rest, in m.
 

@@ -138,6 +138,14 @@ class Part:
                 raise InputError("the component has no beams", key="beams", value=beam)
             return tuple(f"{self.name}.{node}" for node in self._model.beam_nodes(beam))
 
+    def beam_axes(self, beam: str) -> FloatArray:
+        """Return the local axes of a beam, named without the part's name, one a row, (3, 3)."""
+        with self._named():
+            if not isinstance(self._model, BeamModel):
+                raise InputError("the component has no beams", key="beams", value=beam)
+            own: FloatArray = self._model.beam_axes(beam) @ self._axes.T
+        return own
+
     def strain_form(self, gauge: Gauge) -> LinearForm:
         """Return the strain of a gauge, its beam without the part's name, as a form of the rows."""
         field = np.zeros(len(self._model.dofs))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bumpstop.io.case.build.basis import built_basis, static_places
+from bumpstop.io.case.build.basis import built_basis, load_tables, static_places
 from bumpstop.io.case.build.gauges import built_gauges
 from bumpstop.io.case.build.initial import built_initial, state_key
 from bumpstop.io.case.build.laws import built_laws
@@ -82,7 +82,8 @@ class Builder:
 
 def _same_basis(one: CaseFile, other: CaseFile) -> bool:
     same = all(getattr(one, table) == getattr(other, table) for table in _STRUCTURE)
-    return same and static_places(one) == static_places(other)
+    same = same and static_places(one) == static_places(other)
+    return same and load_tables(one) == load_tables(other)
 
 
 def _renamed(case: CaseFile) -> dict[str, str]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from bumpstop.io.case.build.names import named
 from bumpstop.io.case.build.structure import built_structure
 from bumpstop.io.case.keys import keyed
 from bumpstop.modal.basis import ModalBasis
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.dofs import Place
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["built_basis", "static_places"]
+__all__ = ["built_basis", "load_tables", "static_places"]
 
 
 def built_basis(case: CaseFile, folder: Path) -> ModalBasis:
@@ -35,6 +36,7 @@ def built_basis(case: CaseFile, folder: Path) -> ModalBasis:
             static_shapes=static_places(case),
             constraint_shapes=table.constraint_shapes,
             base_shapes=table.base_shapes,
+            load_shapes=_loads(case, folder),
             static_damping=table.static_damping,
             rigid_modes=table.rigid_modes,
         )
@@ -55,6 +57,30 @@ def _model(case: CaseFile, folder: Path) -> LinearModel:
         return built_assembly(case, folder)
     with keyed():
         return built_structure(case)
+
+
+def load_tables(case: CaseFile) -> dict[str, Any]:
+    """Return the tables of the loads whose static shapes join the modes, by name."""
+    wanted = case.basis.load_shapes
+    if not wanted:
+        return {}
+    from bumpstop.io.case.build.loads import BASE_MOTION
+
+    known: dict[str, Any] = dict(case.loads)
+    if case.base_motion is not None:
+        known[BASE_MOTION] = case.base_motion
+    if isinstance(wanted, str):
+        return known
+    return {name: named("load_shapes", name, known) for name in wanted}
+
+
+def _loads(case: CaseFile, folder: Path) -> list[Any]:
+    wanted = load_tables(case)
+    if not wanted:
+        return []
+    from bumpstop.io.case.build.loads import built_loads
+
+    return [load for load in built_loads(case, folder) if load.name in wanted]
 
 
 def static_places(case: CaseFile) -> list[Place]:

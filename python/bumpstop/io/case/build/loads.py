@@ -21,6 +21,8 @@ __all__ = ["BASE_MOTION", "built_loads"]
 
 _TIMES = frozenset(("harmonics", "polynomial", "table", "sweeps", "expression", "product"))
 """Keys of a load that say how it changes."""
+_NOT_OF_LOADS = {"type", "line_tolerance", *_TIMES}
+_CLASSES = {"force": "NodalForce", "line_force": "LineForce"}
 BASE_MOTION = "base_motion"
 """Table of the motion of the supports, and the name of the load that it makes."""
 
@@ -35,10 +37,9 @@ def _load(name: str, table: LoadTable, folder: Path) -> Load:
     with keyed(f"loads.{name}"):
         if table.type == "gravity":
             return loads.Gravity(name, acceleration=table.acceleration)
-        time = _time(table, folder)
-        return loads.NodalForce(
-            name, node=table.node, force=table.force, moment=table.moment, time=time
-        )
+        said = {key: value for key, value in table if key not in _NOT_OF_LOADS}
+        made: Load = getattr(loads, _CLASSES[table.type])(name, **said, time=_time(table, folder))
+        return made
 
 
 def _base_motion(table: BaseMotionTable, folder: Path) -> Load:

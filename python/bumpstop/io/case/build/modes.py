@@ -22,6 +22,7 @@ _OF_STRUCTURES = (
     "static_shapes",
     "constraint_shapes",
     "base_shapes",
+    "load_shapes",
     "static_damping",
     "rigid_modes",
 )

@@ -25,6 +25,7 @@ __all__ = [
     "Length",
     "Length2",
     "Length3",
+    "LineForce3",
     "LineMass",
     "Mass",
     "Moment3",
@@ -67,6 +68,7 @@ _ANGULAR_RATE = Dimension("an angular rate", "rad/s", "30 deg/s")
 _TIME = Dimension("a time", "s", "20 ms")
 _FREQUENCY = Dimension("a frequency", "Hz", "10 Hz")
 _FORCE = Dimension("a force", "N", "5 kN")
+_LINE_FORCE = Dimension("a force per length", "N/m", "2 kN/m")
 _MOMENT = Dimension("a moment", "N*m", "5 kN*m")
 
 
@@ -199,6 +201,7 @@ Number3 = Annotated[tuple[float, float, float], _vector(_NUMBER)]
 Acceleration3 = Annotated[tuple[float, float, float], _vector(_ACCELERATION)]
 Velocity3 = Annotated[tuple[float, float, float], _vector(_VELOCITY)]
 AngularRate3 = Annotated[tuple[float, float, float], _vector(_ANGULAR_RATE)]
+LineForce3 = Annotated[tuple[float, float, float], _vector(_LINE_FORCE)]
 Force3 = Annotated[tuple[float, float, float], _vector(_FORCE)]
 Moment3 = Annotated[tuple[float, float, float], _vector(_MOMENT)]
 

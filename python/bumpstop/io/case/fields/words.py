@@ -17,6 +17,7 @@ __all__ = [
     "Dofs",
     "Group",
     "LinkedNodes",
+    "LoadNames",
     "Name",
     "Node",
     "NodeName",
@@ -110,6 +111,10 @@ def _read_dofs(value: object) -> list[str]:
     return read_list(value, choice(*DOFS).read, "dofs")
 
 
+def _read_load_names(value: object) -> list[str] | str:
+    return "all" if value == "all" else read_list(value, _read_name, "names of loads")
+
+
 def _read_units(value: object) -> list[str]:
     units = read_list(value, _read_text, "units")
     if len(units) != 2:
@@ -131,6 +136,9 @@ Node = Annotated[str, Plain(read_node, {**_STRING, "examples": ["B", "AB.3", "AB
 Nodes = Annotated[list[str], Plain(_read_nodes, {"anyOf": [{"const": "all"}, _STRINGS]})]
 BeamEnds = Annotated[tuple[str, str], Plain(_read_ends, {**_STRINGS, "minItems": 2, "maxItems": 2})]
 LinkedNodes = Annotated[tuple[str, ...], Plain(_read_linked, {**_STRINGS, "minItems": 2})]
+LoadNames = Annotated[
+    list[str] | str, Plain(_read_load_names, {"anyOf": [{"const": "all"}, _STRINGS]})
+]
 Units = Annotated[list[str], Plain(_read_units, {**_STRINGS, "minItems": 2, "maxItems": 2})]
 OneDof = Annotated[str, choice(*DOFS)]
 Dofs = Annotated[list[str], Plain(_read_dofs, {**_STRINGS, "items": {"enum": list(DOFS)}})]

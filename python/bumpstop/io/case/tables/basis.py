@@ -7,7 +7,7 @@ from bumpstop.io.case.fields.damping import ModalDamping
 from bumpstop.io.case.fields.modes import Modes
 from bumpstop.io.case.fields.quantities import Ratio
 from bumpstop.io.case.fields.shapes import Places, PlacesOrStops
-from bumpstop.io.case.fields.words import Dofs, choice
+from bumpstop.io.case.fields.words import Dofs, LoadNames, choice
 from bumpstop.io.case.tables.table import Field, Table
 
 __all__ = ["BasisTable"]
@@ -45,6 +45,11 @@ class BasisTable(Table):
         default=[],
         description="Displacements that join the modes: those under a steady acceleration of "
         "the supports in these directions",
+    )
+    load_shapes: LoadNames = Field(
+        default=[],
+        description="Displacements that join the modes: those under these loads, held still; "
+        'by name, or "all"',
     )
     static_damping: Ratio | None = Field(
         default=None,

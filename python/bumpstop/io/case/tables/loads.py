@@ -2,12 +2,18 @@
 
 from typing import Annotated, Literal
 
-from bumpstop.io.case.fields.quantities import Acceleration3, Force3, Moment3
-from bumpstop.io.case.fields.words import Node
+from bumpstop.io.case.fields.quantities import (
+    Acceleration3,
+    Force3,
+    Length,
+    LineForce3,
+    Moment3,
+)
+from bumpstop.io.case.fields.words import BeamName, Node, choice
 from bumpstop.io.case.tables.table import Field, Kinds, Table
 from bumpstop.io.case.tables.time import TimeKeys
 
-__all__ = ["ForceTable", "GravityTable", "LoadTable"]
+__all__ = ["ForceTable", "GravityTable", "LineForceTable", "LoadTable"]
 
 
 class ForceTable(TimeKeys):
@@ -19,6 +25,26 @@ class ForceTable(TimeKeys):
     moment: Moment3 = Field(default=(0.0, 0.0, 0.0), description="Components about X, Y, Z, in N m")
 
 
+class LineForceTable(TimeKeys):
+    """A force spread along a beam, uniform or changing linearly."""
+
+    type: Literal["line_force"] = Field(description="Kind of load")
+    beam: BeamName = Field(description="The beam it acts on")
+    force: LineForce3 = Field(description="Components in N/m")
+    end_force: LineForce3 | None = Field(
+        default=None,
+        description="Components in N/m at the end of the loaded length, where they differ; "
+        "between, they change linearly",
+    )
+    start: Length = Field(default=0.0, description="Where it begins, in m from the first node")
+    end: Length | None = Field(
+        default=None, description="Where it ends, in m from the first node; at the last one else"
+    )
+    axes: Annotated[str, choice("global", "local")] = Field(
+        default="global", description="Whether components are along X, Y, Z or the beam's own axes"
+    )
+
+
 class GravityTable(Table):
     """Weight: the same acceleration on every mass of the structure."""
 
@@ -26,4 +52,4 @@ class GravityTable(Table):
     acceleration: Acceleration3 = Field(description="Components along X, Y, Z, in m/s2")
 
 
-LoadTable = Annotated[ForceTable | GravityTable, Kinds("type")]
+LoadTable = Annotated[ForceTable | LineForceTable | GravityTable, Kinds("type")]
