@@ -48,7 +48,11 @@ if TYPE_CHECKING:
     from bumpstop.modal.substructure.placed import Placed
     from bumpstop.modal.substructure.reduced import ReducedComponent
     from bumpstop.modal.substructure.rotation import Rotation
+    from bumpstop.post.contacts import contact_impacts
+    from bumpstop.post.sampled import sampled_impacts
+    from bumpstop.post.statistics import ContactStatistics, contact_statistics
     from bumpstop.problem import Problem
+    from bumpstop.report.arrays import plot
     from bumpstop.response import Response
     from bumpstop.simulate import simulate
     from bumpstop.structure.beam import Beam
@@ -83,6 +87,7 @@ __all__ = [
     "ComplexModes",
     "Component",
     "ComputationError",
+    "ContactStatistics",
     "Expression",
     "FrequencyResponse",
     "Friction",
@@ -131,15 +136,19 @@ __all__ = [
     "Tube",
     "campbell",
     "complex_modes",
+    "contact_impacts",
+    "contact_statistics",
     "craig_bampton",
     "free_interface",
     "generalised_mass",
     "identify_modes",
     "load_case",
     "participation",
+    "plot",
     "read_matrices",
     "read_mesh",
     "read_modes",
+    "sampled_impacts",
     "simulate",
     "write_matrices",
 ]
@@ -157,6 +166,7 @@ _HOME = {
     "ComplexModes": "modal.oscillation",
     "Component": "modal.substructure.component",
     "ComputationError": "errors",
+    "ContactStatistics": "post.statistics",
     "Expression": "loads.expression",
     "FrequencyResponse": "modal.frequency_response",
     "Friction": "laws.friction",
@@ -205,15 +215,19 @@ _HOME = {
     "Tube": "structure.sections.tube",
     "campbell": "modal.rotor",
     "complex_modes": "modal.oscillation",
+    "contact_impacts": "post.contacts",
+    "contact_statistics": "post.statistics",
     "craig_bampton": "modal.substructure.craig_bampton",
     "free_interface": "modal.substructure.free_interface",
     "generalised_mass": "modal.masses",
     "identify_modes": "io.modes",
     "load_case": "io.case",
     "participation": "modal.masses",
+    "plot": "report.arrays",
     "read_matrices": "io.matrices",
     "read_mesh": "io.meshes",
     "read_modes": "io.modes",
+    "sampled_impacts": "post.sampled",
     "simulate": "simulate",
     "write_matrices": "io.matrices",
 }

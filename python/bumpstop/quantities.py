@@ -7,11 +7,13 @@ from typing import NamedTuple
 from bumpstop.structure.dofs import DOFS
 
 __all__ = [
+    "COUNTED_IMPACTS",
     "ENERGIES",
     "FREQUENCY",
     "IMPACTS",
     "QUANTITIES",
     "STATE",
+    "STATISTICS",
     "STOP_ENERGIES",
     "Quantity",
     "dof_units",
@@ -92,6 +94,42 @@ IMPACTS = {
     "peak_time": Quantity("s", "instant of the largest force"),
 }
 """Columns of the impact table beside the stop's name."""
+
+COUNTED_IMPACTS = {
+    "start": Quantity("s", "instant at which the force exceeds the threshold"),
+    "end": Quantity("s", "instant from which on the force stays below it"),
+    "duration": Quantity("s", "from start to end, pauses between rebounds included"),
+    "contact_time": Quantity("s", "time loaded"),
+    "rebounds": Quantity("1", "returns within the rest time"),
+    "closing_speed": Quantity("m/s", "speed towards the stop at the start"),
+    "peak_time": Quantity("s", "instant of the largest force"),
+    "peak_force": Quantity("N", "largest force"),
+    "impulse": Quantity("N s", "integral of the force while it exceeds the threshold"),
+}
+"""Columns of impacts as statistics count them, above a threshold and merged by a rest time."""
+
+STATISTICS = {
+    "impact_count": Quantity("1", "number of impacts", ("stop",)),
+    "impact_rate": Quantity("1/s", "impacts a second", ("stop",)),
+    "mean_interval": Quantity("s", "mean time from one impact to the next", ("stop",)),
+    "contact_time": Quantity("s", "time loaded", ("stop",)),
+    "contact_fraction": Quantity("1", "part of the time loaded", ("stop",)),
+    "mean_duration": Quantity("s", "mean duration of an impact", ("stop",)),
+    "largest_duration": Quantity("s", "largest duration of an impact", ("stop",)),
+    "mean_closing_speed": Quantity("m/s", "mean closing speed", ("stop",)),
+    "rms_closing_speed": Quantity("m/s", "rms of the closing speeds", ("stop",)),
+    "largest_closing_speed": Quantity("m/s", "largest closing speed", ("stop",)),
+    "mean_peak_force": Quantity("N", "mean of the impacts' peak forces", ("stop",)),
+    "deviation_peak_force": Quantity("N", "standard deviation of the peak forces", ("stop",)),
+    "largest_force": Quantity("N", "largest force", ("stop",)),
+    "mean_impulse": Quantity("N s", "mean impulse of an impact", ("stop",)),
+    "largest_impulse": Quantity("N s", "largest impulse of an impact", ("stop",)),
+    "mean_force": Quantity("N", "mean force over all the time", ("stop",)),
+    "rms_force": Quantity("N", "rms force over all the time", ("stop",)),
+    "mean_force_in_contact": Quantity("N", "mean force over the time loaded", ("stop",)),
+    "rms_force_in_contact": Quantity("N", "rms force over the time loaded", ("stop",)),
+}
+"""Statistics of the impacts on a stop over a run, or over a block of its time."""
 
 
 def dof_units(quantity: str, dof: str) -> str:

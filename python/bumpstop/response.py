@@ -208,12 +208,23 @@ class Response:
         if quantity == "friction_force":
             return self._friction_force(str(target[0]), times)
         if quantity in ("stop_force", "gap"):
-            law = self._law_index(str(target[0]))
+            law = self.law_index(str(target[0]))
             distance, _, force = self.history.law_motion(law, self._instants(times))
             return force if quantity == "stop_force" else distance
         motion = self.motion(MOTIONS.index(quantity.removeprefix("modal_")), times)
         amplitudes = self.problem.basis.amplitudes(motion)
         return amplitudes[:, self._mode_index(target[0])] if target else amplitudes
+
+    def law_index(self, stop: str) -> int:
+        """Return the number of a stop or another law in the core, counted from 0.
+
+        Raises
+        ------
+        InputError
+            If there is no such law.
+        """
+        names = [law.name for law in self.problem.laws]
+        return names.index(one_of("stop", stop, names))
 
     def energy_terms(self, times: ArrayLike | None = None) -> dict[str, FloatArray]:
         """Return the energy ledger as plain arrays (time,), in J; see `energy`."""
@@ -404,15 +415,11 @@ class Response:
     def _instants(self, times: ArrayLike | None) -> FloatArray:
         return self.times if times is None else _checked_times(times, self.problem.duration)
 
-    def _law_index(self, stop: str) -> int:
-        names = [law.name for law in self.problem.laws]
-        return names.index(one_of("stop", stop, names))
-
     def _states(self, law: str, times: ArrayLike | None) -> list[str]:
-        return self.history.law_states(self._law_index(law), self._instants(times))
+        return self.history.law_states(self.law_index(law), self._instants(times))
 
     def _friction_force(self, law: str, times: ArrayLike | None) -> FloatArray:
-        forces = self.history.law_forces(self._law_index(law), self._instants(times))
+        forces = self.history.law_forces(self.law_index(law), self._instants(times))
         return forces[:, 1].copy() if forces.shape[1] > 1 else np.zeros(len(forces))
 
     def _gauge_row(self, gauge: str) -> FloatArray:

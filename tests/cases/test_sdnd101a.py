@@ -35,7 +35,7 @@ def test_references(variant: str, case: bs.Case) -> None:
     dt = None if method.name == "exact" else method.options["dt"]
     response = bs.simulate(case.problems[variant], method.name, dt=dt)
     checks = check_references(response, case.references[variant])
-    assert len(checks) == (16 if variant == "exact" else 13)
+    assert len(checks) == (21 if variant == "exact" else 17)
     assert all(check.passed for check in checks)
 
 

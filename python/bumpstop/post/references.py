@@ -11,7 +11,15 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, count, not_negative, one_of, series
 from bumpstop.errors import InputError
-from bumpstop.quantities import ENERGIES, FREQUENCY, IMPACTS, QUANTITIES, dof_units
+from bumpstop.post.impacts import impacts_of
+from bumpstop.quantities import (
+    ENERGIES,
+    FREQUENCY,
+    IMPACTS,
+    QUANTITIES,
+    STATISTICS,
+    dof_units,
+)
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
@@ -40,11 +48,15 @@ IMPACT_COLUMNS = {
 }
 """Quantities of an impact, and the column of the impact table that each is."""
 
+UNSAMPLED = ("opening_speed", "energy_returned")
+"""Quantities of an impact that samples of the force do not have."""
+
 REFERENCE_QUANTITIES: dict[str, tuple[str, ...]] = {
     **{quantity: what.target for quantity, what in QUANTITIES.items()},
     "energy": ("term",),
     "frequency": ("modes",),
     **dict.fromkeys(IMPACT_COLUMNS, ("stop", "impact")),
+    **{quantity: what.target for quantity, what in STATISTICS.items()},
 }
 """Each quantity that can be compared, and what says of which part it is."""
 
@@ -62,12 +74,15 @@ class Reference:
         ``energy`` of a ``term`` of the ledger), one of an ``impact`` of a ``stop``, counted
         from 1 (``impact_start``, ``impact_end``, ``impact_duration``, ``closing_speed``,
         ``opening_speed``, ``peak_force``, ``peak_time``, ``impulse``, ``energy_returned``),
-        or the natural ``frequency`` of some ``modes``, without damping and spin, in Hz.
+        one of the contact statistics of a ``stop`` over the run (``impact_count``,
+        ``mean_force``, ``largest_force`` and the others of `contact_statistics`), or the natural
+        ``frequency`` of some ``modes``, without damping and spin, in Hz.
     times
-        Instants in s, one a value; none for a quantity of an impact and for frequencies.
-    values
-        The published values in SI units; one for a quantity of an impact, one a mode for
+        Instants in s, one a value; none for a quantity of an impact, a statistic and for
         frequencies.
+    values
+        The published values in SI units; one for a quantity of an impact and a statistic, one
+        a mode for frequencies.
     tolerance
         Largest deviation relative to the size of the value.
     absolute_tolerance
@@ -75,6 +90,9 @@ class Reference:
     node, dof, mode, modes, stop, gauge, term, impact
         What it is the quantity of. Modes count from 1; for a frequency `mode` may stand
         instead of `modes`.
+    sampled
+        True where a quantity of an impact is that of the samples at the response's times, as
+        `sampled_impacts` counts them, instead of that of the solution between them.
     source
         Where the values come from.
 
@@ -98,6 +116,7 @@ class Reference:
     gauge: str | None = None
     term: str | None = None
     impact: int | None = None
+    sampled: bool = False
     source: str = ""
 
     def __post_init__(self) -> None:
@@ -129,6 +148,8 @@ class Reference:
             return FREQUENCY.units
         if self.impact is not None:
             return IMPACTS[IMPACT_COLUMNS[self.quantity]].units
+        if self.quantity in STATISTICS:
+            return STATISTICS[self.quantity].units
         return QUANTITIES[self.quantity].units
 
     def _take_modes(self) -> None:
@@ -154,13 +175,17 @@ class Reference:
         for key in ("mode", "impact"):
             if key in wanted:
                 count(key, getattr(self, key))
+        if self.sampled and (self.impact is None or self.quantity in UNSAMPLED):
+            what = f"{self.quantity} has no definition by samples"
+            raise InputError(what, key="sampled", value=self.sampled)
         if self.term is not None:
             one_of("term", self.term, tuple(ENERGIES))
 
     def _check_lengths(self) -> None:
-        if self.impact is not None:
+        if self.impact is not None or self.quantity in STATISTICS:
             if self.times or len(self.values) != 1:
-                what = f"{self.quantity} is one value of one impact, without times"
+                of = "of one impact" if self.impact is not None else "of the whole run"
+                what = f"{self.quantity} is one value {of}, without times"
                 raise InputError(what, key="values", value=self.values)
         elif self.modes is not None:
             self._check_modes(self.modes)
@@ -192,10 +217,10 @@ class Check:
 
     ``deviation`` is the size of the difference, relative to that of the reference, or in the
     quantity's unit where the tolerance is ``absolute``. ``time`` is in s; for a quantity of an
-    impact it is the instant of closing. Where there is no such impact, ``value``,
-    ``deviation`` and ``time`` are NaN; where it has not ended yet, ``value`` and ``deviation``
-    may be. A NaN never passes. A frequency has the ``mode`` that it is the frequency of,
-    counted from 1, and no time: that is NaN.
+    impact it is the instant of closing, for a statistic the end of the run. Where there is no
+    such impact, ``value``, ``deviation`` and ``time`` are NaN; where it has not ended yet,
+    ``value`` and ``deviation`` may be. A NaN never passes. A frequency has the ``mode`` that it
+    is the frequency of, counted from 1, and no time: that is NaN.
     """
 
     quantity: str
@@ -279,19 +304,31 @@ def _computed(response: Response, reference: Reference) -> tuple[FloatArray, Flo
         return _of_impact(response, reference)
     if reference.quantity == "energy":
         return times, response.energy_terms(times)[str(reference.term)]
+    if reference.quantity in STATISTICS:
+        return _of_run(response, reference)
     return times, response.sample(*reference.target, times=times)
 
 
+def _of_run(response: Response, reference: Reference) -> tuple[FloatArray, FloatArray]:
+    from bumpstop.post.statistics import contact_statistics
+
+    found = contact_statistics(response, str(reference.stop), blocks=1)
+    return np.array([response.problem.duration]), np.array([found[reference.quantity]])
+
+
 def _of_impact(response: Response, reference: Reference) -> tuple[FloatArray, FloatArray]:
-    stops = [law.name for law in response.problem.laws]
-    one_of("stop", reference.stop, stops)
-    table = response.impact_table()
-    rows = [row for row, stop in enumerate(table["stop"]) if stop == reference.stop]
-    if reference.impact is None or reference.impact > len(rows):
+    law = response.law_index(str(reference.stop))
+    if reference.sampled:
+        from bumpstop.post.sampled import samples_of
+
+        table = samples_of(response, law)
+    else:
+        table = impacts_of(response, law)
+    number = reference.impact
+    if number is None or number > len(table["start"]):
         return np.array([math.nan]), np.array([math.nan])
-    row = rows[reference.impact - 1]
     column = table[IMPACT_COLUMNS[reference.quantity]]
-    return np.array([table["start"][row]]), np.array([column[row]])
+    return table["start"][number - 1 : number], column[number - 1 : number]
 
 
 def _check(reference: Reference, time: float, value: float, published: float) -> Check:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bumpstop.post.references import IMPACT_COLUMNS
+from bumpstop.quantities import STATISTICS
 from bumpstop.report.scales import percent, scale_for, significant, with_unit
 from bumpstop.report.words import shown, title_of, unit_of
 
@@ -107,7 +108,7 @@ def _single_values(checks: Sequence[Check]) -> dict[str, Any]:
         label = title_of(check.target)
         if check.mode is not None:
             label = f"Natural frequency of mode {check.mode}"
-        elif check.quantity not in IMPACT_COLUMNS:
+        elif check.quantity not in IMPACT_COLUMNS and check.quantity not in STATISTICS:
             label += f" at {with_unit(check.time, 's', 6)}"
         reference = significant(check.reference * scale.factor, 6, zeros=False)
         value = check.missing or f"{scale.show(check.value, 6)} {scale.unit}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bumpstop.post.references import IMPACT_COLUMNS
-from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, dof_units
+from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, STATISTICS, dof_units
 
 __all__ = ["title_of", "unit_of"]
 
@@ -45,6 +45,8 @@ def title_of(target: tuple[str | int, ...]) -> str:
     name = str(quantity)
     if name in IMPACT_COLUMNS:
         return f"{_capitalised(IMPACTS[IMPACT_COLUMNS[name]].long_name)}, impact {of[1]} on {of[0]}"
+    if name in STATISTICS:
+        return f"{_capitalised(STATISTICS[name].long_name)} on {of[0]}"
     which = f" of mode {of[0]}" if of else ""
     return f"{_capitalised(QUANTITIES[name].long_name)}{which}"
 

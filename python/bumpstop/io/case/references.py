@@ -62,6 +62,7 @@ def _reference(table: ReferenceTable, basis: ModalBasis, problem: Problem | None
         gauge=table.gauge,
         term=table.term,
         impact=table.impact,
+        sampled=table.sampled,
         source=table.source,
     )
     _check_modes(target, basis)

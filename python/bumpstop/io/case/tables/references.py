@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from bumpstop.io.case.fields.counts import Count
+from bumpstop.io.case.fields.counts import Count, Switch
 from bumpstop.io.case.fields.quantities import PositiveNumber, Times, Written, WrittenList
 from bumpstop.io.case.fields.words import Name, Node, OneDof, Text, choice
 from bumpstop.io.case.tables.table import Field, Table
@@ -30,8 +30,12 @@ class ReferenceTable(Table):
     gauge: Name | None = Field(default=None, description="Of which gauge")
     term: Name | None = Field(default=None, description="Which term of the energy ledger")
     impact: Count | None = Field(default=None, description="Of which impact, counted from 1")
+    sampled: Switch = Field(
+        default=False,
+        description="For an impact: counted from the samples, as many published tables are",
+    )
     times: Times | None = Field(
-        default=None, description="When, in s, in ascending order; none for impacts and frequencies"
+        default=None, description="When, in s, in ascending order; only for quantities of time"
     )
     values: WrittenList = Field(description="The known values, one a time or mode, in SI units")
     tolerance: PositiveNumber | None = Field(

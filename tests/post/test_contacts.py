@@ -1,0 +1,144 @@
+"""Impacts as they are counted, on motions whose contacts are half sines."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import bumpstop as bs
+
+STIFFNESS, SPEED = 1e4, 0.5
+OMEGA = math.sqrt(STIFFNESS)
+PEAK = OMEGA * SPEED
+"""A free mass of 1 kg that hits with 0.5 m/s presses by a half sine of this height."""
+
+
+def between_walls(duration: float = 2.0) -> bs.Response:
+    """A mass flies to and fro between two walls 0.1 m from its start."""
+    basis = bs.ModalBasis.from_modes(frequency=[0.0], shapes={("P", "dx"): [1.0]})
+    walls = [
+        bs.Stop(name, node="P", normal=(side, 0, 0), gap=0.1, stiffness=STIFFNESS)
+        for name, side in (("left", 1), ("right", -1))
+    ]
+    start = bs.ModalState(velocity=[-SPEED])
+    return bs.simulate(bs.Problem(basis, laws=walls, initial=start, duration=duration))
+
+
+FLIGHT, CONTACT = 0.2 / SPEED, math.pi / OMEGA
+PERIOD = 2.0 * (FLIGHT + CONTACT)
+
+
+@pytest.fixture(scope="module")
+def response() -> bs.Response:
+    return between_walls()
+
+
+def test_without_threshold_they_are_the_contacts(response: bs.Response) -> None:
+    counted = bs.contact_impacts(response, "left")
+    contacts = response.impacts.query("stop == 'left'")
+    for name in ("start", "end", "duration", "closing_speed", "peak_force", "impulse"):
+        assert counted[name].tolist() == contacts[name].tolist()
+    assert counted["rebounds"].tolist() == [0.0] * len(contacts)
+    assert counted.attrs["units"]["impulse"] == "N s"
+
+
+def test_a_threshold_cuts_the_half_sine(response: bs.Response) -> None:
+    counted = bs.contact_impacts(response, "left", threshold=0.3 * PEAK)
+    late = math.asin(0.3) / OMEGA
+    starts = 0.1 / SPEED + PERIOD * np.arange(3)
+    assert_allclose(counted["start"][:2], starts[:2] + late, rtol=1e-13)
+    assert_allclose(counted["duration"][:2], CONTACT - 2.0 * late, rtol=1e-12)
+    assert_allclose(counted["peak_force"][:2], PEAK, rtol=1e-12)
+    assert_allclose(counted["peak_time"][:2], starts[:2] + CONTACT / 2.0, rtol=1e-7)
+    assert_allclose(counted["closing_speed"][:2], SPEED * math.sqrt(1 - 0.09), rtol=1e-12)
+    assert_allclose(counted["impulse"][:2], 2.0 * SPEED * math.sqrt(1 - 0.09), rtol=1e-12)
+
+
+def test_no_impact_above_the_highest_peak(response: bs.Response) -> None:
+    assert len(bs.contact_impacts(response, "left", threshold=1.001 * PEAK)) == 0
+
+
+def test_a_rest_time_merges_rebounds(response: bs.Response) -> None:
+    pause = PERIOD - CONTACT
+    apart = bs.contact_impacts(response, "left", rest=0.999 * pause)
+    merged = bs.contact_impacts(response, "left", rest=1.001 * pause)
+    assert len(apart) == 3
+    assert len(merged) == 1
+    assert merged["rebounds"][0] == 2.0
+    assert merged["impulse"][0] == pytest.approx(apart["impulse"].sum(), rel=1e-14)
+    assert merged["contact_time"][0] == pytest.approx(apart["contact_time"].sum(), rel=1e-14)
+
+
+def test_an_impact_under_way_has_no_end() -> None:
+    cut = bs.contact_impacts(between_walls(0.2 + 0.25 * CONTACT), "left")
+    assert math.isnan(cut["end"][0])
+    assert cut["contact_time"][0] == pytest.approx(0.25 * CONTACT, rel=1e-10)
+
+
+def test_two_peaks_of_one_contact_are_told_apart() -> None:
+    """A light mass on a spring in front of a heavy one: the force of the contact has two humps."""
+    shapes = {("P", "dx"): [1.0, 1.0]}
+    basis = bs.ModalBasis.from_modes(frequency=[2.0, 11.0], shapes=shapes)
+    wall = bs.Stop("wall", node="P", normal=(1, 0, 0), gap=0.0, stiffness=800.0)
+    start = bs.ModalState(velocity=[-0.6, -0.4])
+    problem = bs.Problem(basis, laws=[wall], initial=start, duration=0.2, sample=1e-5)
+    response = bs.simulate(problem)
+    force = response.sample("stop_force", "wall")
+    inside = np.flatnonzero((force[1:-1] > force[:-2]) & (force[1:-1] > force[2:])) + 1
+    dips = np.flatnonzero((force[1:-1] < force[:-2]) & (force[1:-1] <= force[2:])) + 1
+    dips = dips[force[dips] > 0.0]
+    assert len(dips) == 1  # else the case is not what its name says
+    threshold = 0.5 * (force[dips[0]] + force[inside].min())
+    assert len(response.impacts) < len(bs.contact_impacts(response, "wall", threshold=threshold))
+    counted = bs.contact_impacts(response, "wall", threshold=threshold)
+    sampled = bs.sampled_impacts(response.times, force, threshold=threshold)
+    assert len(counted) == len(sampled)
+    assert_allclose(counted["start"], sampled["start"], atol=1.1e-5)
+    assert_allclose(counted["duration"], sampled["duration"], atol=1.1e-5)
+    assert_allclose(counted["peak_force"], sampled["peak_force"], rtol=1e-6)
+    assert_allclose(counted["impulse"], sampled["impulse"], rtol=1e-3)
+
+
+def test_a_threshold_means_nothing_for_rigid_stops() -> None:
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    wall = bs.RigidStop("wall", node="P", normal=(1, 0, 0), gap=0.0, restitution=1.0)
+    start = bs.ModalState(velocity=[-0.5])
+    run = bs.simulate(bs.Problem(basis, laws=[wall], initial=start, duration=2.0))
+    with pytest.raises(bs.InputError, match="no finite force"):
+        bs.contact_impacts(run, "wall", threshold=1.0)
+
+
+class TestSamples:
+    times = np.arange(0.0, 2.0, 1e-4)
+
+    def test_they_converge_to_the_solution(self, response: bs.Response) -> None:
+        at = response.at(self.times)
+        speed = -at.velocity("P", "dx")
+        sampled = bs.sampled_impacts(self.times, at.stop_force("left"), speed)
+        counted = bs.contact_impacts(response, "left")
+        assert_allclose(sampled["start"], counted["start"], atol=1e-4)
+        assert_allclose(sampled["impulse"][:2], counted["impulse"][:2], rtol=1e-4)
+        assert_allclose(sampled["closing_speed"], SPEED, rtol=1e-3)
+
+    def test_rest_and_threshold(self) -> None:
+        force = [0, 3, 0, 5, 1, 0, 0, 0, 2]
+        counted = bs.sampled_impacts(range(9), force, threshold=1.0, rest=2.0)
+        assert counted["start"].tolist() == [1.0, 8.0]
+        assert counted["rebounds"].tolist() == [1.0, 0.0]
+        assert counted["end"].tolist()[0] == 4.0
+        assert counted["contact_time"].tolist() == [2.0, 0.0]
+        assert counted["impulse"].tolist() == [8.0, 1.0]
+
+    def test_nothing_is_hit(self) -> None:
+        assert len(bs.sampled_impacts([0, 1, 2], [0, 0, 0])) == 0
+
+    @pytest.mark.parametrize(
+        ("times", "force", "key"),
+        [([0, 0], [1, 1], "times"), ([0, 1], [1], "force"), ([0], [1], "times")],
+    )
+    def test_refuses(self, times: Any, force: Any, key: str) -> None:
+        with pytest.raises(bs.InputError) as caught:
+            bs.sampled_impacts(times, force)
+        assert caught.value.key == key
