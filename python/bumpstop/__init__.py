@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from bumpstop.modal.substructure.reduced import ReducedComponent
     from bumpstop.modal.substructure.rotation import Rotation
     from bumpstop.post.contacts import contact_impacts
+    from bumpstop.post.recovery import Recovery, recovery
     from bumpstop.post.sampled import sampled_impacts
     from bumpstop.post.statistics import ContactStatistics, contact_statistics
     from bumpstop.problem import Problem
@@ -113,6 +114,7 @@ __all__ = [
     "Problem",
     "Product",
     "RayleighDamping",
+    "Recovery",
     "Rectangle",
     "ReducedComponent",
     "Relation",
@@ -148,6 +150,7 @@ __all__ = [
     "read_matrices",
     "read_mesh",
     "read_modes",
+    "recovery",
     "sampled_impacts",
     "simulate",
     "write_matrices",
@@ -192,6 +195,7 @@ _HOME = {
     "Problem": "problem",
     "Product": "loads.product",
     "RayleighDamping": "modal.damping",
+    "Recovery": "post.recovery",
     "Rectangle": "structure.sections.rectangle",
     "ReducedComponent": "modal.substructure.reduced",
     "Relation": "structure.relation",
@@ -227,6 +231,7 @@ _HOME = {
     "read_matrices": "io.matrices",
     "read_mesh": "io.meshes",
     "read_modes": "io.modes",
+    "recovery": "post.recovery",
     "sampled_impacts": "post.sampled",
     "simulate": "simulate",
     "write_matrices": "io.matrices",

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
 
-__all__ = ["CanonicalForm", "canonical_form"]
+__all__ = ["CanonicalForm", "canonical_form", "velocity_matrix"]
 
 
 class CanonicalForm(NamedTuple):
@@ -122,12 +122,18 @@ def _with_motions(
     return forcing.with_motions(polynomials, harmonics, tables)
 
 
+def velocity_matrix(basis: ModalBasis) -> FloatArray:
+    """Return all that multiplies modal velocities: damping and gyroscopic matrix, (N, N)."""
+    matrix = np.diag(basis.damping) if basis.damping_matrix is None else basis.damping_matrix.copy()
+    if basis.gyroscopic is not None:
+        matrix += basis.gyroscopic
+    return matrix
+
+
 def _velocity_terms(basis: ModalBasis) -> tuple[FloatArray, FloatArray | None]:
     """Return the damping of each mode, and the matrix of what couples velocities, if any."""
     if not basis.couples and basis.gyroscopic is None:
         return basis.damping, None
-    matrix = np.diag(basis.damping) if basis.damping_matrix is None else basis.damping_matrix.copy()
-    if basis.gyroscopic is not None:
-        matrix += basis.gyroscopic
+    matrix = velocity_matrix(basis)
     own = np.maximum(matrix.diagonal(), 0.0)
     return own, matrix - np.diag(own)

@@ -16,6 +16,7 @@ from bumpstop.structure.dofs import Dof
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.model import LinearModel
 
 __all__ = ["Coordinate", "Terms", "unit"]
 
@@ -112,6 +113,22 @@ class Coordinate:
             for (node, dof), weight in self.terms.items():
                 row += weight * basis.row(node, dof)
         return row
+
+    def nodal_force(self, model: LinearModel) -> FloatArray:
+        """Return a unit force along the coordinate on each dof of a model, (dofs,)."""
+        if self.terms is not None:
+            weights = dict(self.terms)
+        else:
+            along = list(zip(TRANSLATIONS, self.direction, strict=True))
+            weights = {(self.node, dof): part for dof, part in along}
+            if self.other is not None:
+                weights |= {(self.other, dof): -part for dof, part in along}
+        total = np.zeros(len(model.dofs))
+        for (node, dof), weight in weights.items():
+            if weight != 0.0:
+                form = model.displacement_form(node, dof)
+                np.add.at(total, form.dofs, weight * form.weights)
+        return total
 
 
 def unit(key: str, value: object) -> Vector:

@@ -16,7 +16,7 @@ from bumpstop.projection import TRANSLATIONS
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["Friction", "sliding_row"]
+__all__ = ["Friction", "sliding_coordinate", "sliding_row"]
 
 ONE_DIRECTION = 1e-9
 """Motions across the only direction that is not theirs, relative to those along it."""
@@ -100,16 +100,22 @@ def sliding_row(
     InputError
         If nothing moves along the obstacle, or in more than one direction and none is given.
     """
-    if isinstance(sliding, Mapping):
-        row = Coordinate.of(None, "sliding", None, terms=sliding).row(basis)
-    elif sliding is not None:
-        row = _along(basis, contact, tangent(contact.direction, sliding))
-    else:
-        row = _only_row(basis, contact)
+    row = sliding_coordinate(basis, contact, sliding).row(basis)
     if not row.any():
         what = "no mode moves this node along the obstacle"
         raise InputError(what, key="friction", hint="leave the friction out")
     return row
+
+
+def sliding_coordinate(
+    basis: ModalBasis, contact: Coordinate, sliding: Vector | Terms | None
+) -> Coordinate:
+    """Return the coordinate of the motion along the obstacle; see `sliding_row`."""
+    if isinstance(sliding, Mapping):
+        return Coordinate.of(None, "sliding", None, terms=sliding)
+    if sliding is None:
+        return Coordinate(contact.node, _only_direction(basis, contact), contact.other)
+    return Coordinate(contact.node, tangent(contact.direction, sliding), contact.other)
 
 
 def tangent(normal: Vector, sliding: object) -> Vector:
@@ -121,12 +127,8 @@ def tangent(normal: Vector, sliding: object) -> Vector:
     return unit("sliding", across)
 
 
-def _along(basis: ModalBasis, contact: Coordinate, direction: Vector) -> FloatArray:
-    return Coordinate(contact.node, direction, contact.other).row(basis)
-
-
-def _only_row(basis: ModalBasis, contact: Coordinate) -> FloatArray:
-    """Return the motion in the one direction along the obstacle in which there is any."""
+def _only_direction(basis: ModalBasis, contact: Coordinate) -> Vector:
+    """Return the one direction along the obstacle in which there is any motion."""
     if contact.terms is not None:
         hint = "give it, as the distance is, by the weights of dofs"
         raise InputError("must be told where there are terms", key="sliding", hint=hint)
@@ -140,8 +142,8 @@ def _only_row(basis: ModalBasis, contact: Coordinate) -> FloatArray:
         raise InputError(what, key="sliding", hint=hint)
     main = directions[:, 0]
     main *= np.sign(main[np.argmax(np.abs(main))]) * (np.abs(main) > ONE_DIRECTION)
-    row: FloatArray = main @ shapes
-    return row
+    x, y, z = main.tolist()
+    return (x, y, z)
 
 
 def _component(basis: ModalBasis, contact: Coordinate, dof: str) -> FloatArray:

@@ -10,6 +10,8 @@ import numpy as np
 from bumpstop.arguments import FloatArray
 
 if TYPE_CHECKING:
+    from bumpstop.loads.time import TimeTable
+    from bumpstop.problem import Problem
     from bumpstop.response import Response
 
 __all__ = ["integrals", "kinks"]
@@ -84,12 +86,21 @@ def kinks(response: Response) -> FloatArray:
     step = response.options.get("dt")
     if step is not None:
         times.append(np.arange(response.steps + 1) * step)
-    parts = (*problem.laws, *problem.loads)
-    for function in (each for part in parts for each in getattr(part, "functions", ())):
-        times.append(np.asarray(getattr(function, "times", ()), dtype=float))
+    times += [np.asarray(table.times) for table in _tables(problem)]
     found = np.unique(np.concatenate(times))
     inside: FloatArray = found[(found > 0.0) & (found < problem.duration)]
     return inside
+
+
+def _tables(problem: Problem) -> list[TimeTable]:
+    """Return the tables that obstacles and loads follow."""
+    from bumpstop.loads.time import TimeTable, resolved
+
+    followed = [getattr(law, "functions", ()) for law in problem.laws]
+    for load in problem.loads:
+        followed += [functions for _, functions in load.components(problem.basis)]
+    terms = [term for each in followed for term in resolved(each, problem.duration)]
+    return [term for term in terms if isinstance(term, TimeTable)]
 
 
 def _panels(

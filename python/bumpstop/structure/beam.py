@@ -204,6 +204,24 @@ class Beam:
         """Return the unit vectors of its local axes, one a row, (3, 3)."""
         return local_axes(*self._ends(mesh), self.roll)
 
+    def section_forms(self, mesh: Mesh, at: float) -> tuple[LinearForm, ...]:
+        """Return the six forces in the section ``at`` m along: N, Vy, Vz, T, My, Mz.
+
+        They are the element's stiffness times the displacements of its nodes, carried to the
+        section: what the part beyond it does to the part before it, along and about local axes.
+        """
+        element, xi = self._locate(mesh, at)
+        if self.varies:
+            forces = self.varying_element(mesh, element).section_forces(xi)
+        else:
+            from bumpstop.structure.elements.varying import section_forces
+
+            length, part = self._element_length(mesh), self.slice_at(0.0)
+            at_end = self._element.stiffness(length, part)[6:]
+            forces = section_forces(part, (1.0 - xi) * length) @ at_end
+        dofs = self._element_dofs(mesh)[element]
+        return tuple(LinearForm(dofs, row) for row in forces @ self._to_local(mesh))
+
     def position(self, mesh: Mesh, at: float) -> Vector:
         """Return the place ``at`` m along the beam, in m."""
         element, xi = self._locate(mesh, at)

@@ -15,6 +15,7 @@ __all__ = [
     "InertiaModel",
     "LinearModel",
     "RemarkingModel",
+    "SectionModel",
     "StrainModel",
     "VibratingModel",
 ]
@@ -122,3 +123,17 @@ class StrainModel(Protocol):
 
     def strain_form(self, gauge: Gauge) -> LinearForm:
         """Return a gauge's axial strain as a form of all dofs."""
+
+
+@runtime_checkable
+class SectionModel(Protocol):
+    """What a model must offer beside, so that forces inside its beams can be read."""
+
+    def section_forms(self, beam: str, at: float) -> tuple[LinearForm, ...]:
+        """Return N, Vy, Vz, T, My and Mz of a section as forms of all dofs."""
+
+    def strain_form(self, gauge: Gauge) -> LinearForm:
+        """Return the axial strain of a fibre as a form of all dofs."""
+
+    def stress_form(self, gauge: Gauge) -> LinearForm:
+        """Return the axial stress of a fibre as a form of all dofs."""

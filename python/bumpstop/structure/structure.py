@@ -217,6 +217,33 @@ class Structure:
             raise InputError("is outside the section", key="fibre", value=gauge.fibre, hint=hint)
         return beam.strain_form(self.mesh, gauge.at, gauge.fibre)
 
+    def section_forms(self, beam: str, at: float) -> tuple[LinearForm, ...]:
+        """Return the forces in a beam's section as forms of all dofs: N, Vy, Vz, T, My, Mz.
+
+        They are those of the part beyond the section, ``at`` m from the beam's first node, on
+        the part before it, along and about local axes, in N and N m.
+
+        Raises
+        ------
+        InputError
+            If the beam is unknown, or the section is not on it.
+        """
+        found = self._beam(beam, "beam")
+        found.require_on(self.mesh, at, key="at", value=at)
+        return found.section_forms(self.mesh, at)
+
+    def stress_form(self, gauge: Gauge) -> LinearForm:
+        """Return the axial stress of a fibre, in Pa, as a form of all dofs.
+
+        Raises
+        ------
+        InputError
+            As `strain_form` does.
+        """
+        strain = self.strain_form(gauge)
+        young = self._beam(gauge.beam, "beam").material.young_modulus
+        return LinearForm(strain.dofs, young * strain.weights)
+
     def beam_nodes(self, beam: str) -> tuple[str, ...]:
         """Return the nodes of a beam, from end to end.
 

@@ -22,7 +22,7 @@ from bumpstop.arguments import FloatArray
 from bumpstop.structure.elements.slice import Slice
 from bumpstop.structure.frame import rigid_motions
 
-__all__ = ["VaryingElement"]
+__all__ = ["VaryingElement", "section_forces"]
 
 _POINTS = 10
 """Points of Gauss's rule: exact for polynomials of degree 19."""
@@ -108,11 +108,20 @@ class VaryingElement:
         strain: FloatArray = strains[0] - fibre[0] * strains[5] + fibre[1] * strains[4]
         return strain
 
+    def section_forces(self, xi: float) -> FloatArray:
+        """Return the forces in the section at ``xi`` by the dofs, (6, 12).
+
+        N, Vy, Vz, the torque about the shear centre, My and Mz: what the part beyond the section
+        does to the part before it.
+        """
+        forces = section_forces(self._slice_at(xi), (1.0 - xi) * self._length)
+        by_dofs: FloatArray = forces @ self._end_forces
+        return by_dofs
+
     def _strains(self, xi: float) -> FloatArray:
         """Return stretch, two shears, twist and two curvatures at ``xi`` by the dofs, (6, 12)."""
         part = self._slice_at(xi)
-        forces = _section_forces(part, (1.0 - xi) * self._length)
-        strains: FloatArray = _flexibility(part)[:, np.newaxis] * forces @ self._end_forces
+        strains: FloatArray = _flexibility(part)[:, np.newaxis] * self.section_forces(xi)
         return strains
 
     def _bent(self, xi: float) -> FloatArray:
@@ -123,8 +132,8 @@ class VaryingElement:
         motion = np.zeros((6, 6))
         for place, weight in self._points(xi):
             part = self._slice_at(place)
-            virtual = _section_forces(part, (xi - place) * self._length)
-            forces = _section_forces(part, (1.0 - place) * self._length)
+            virtual = section_forces(part, (xi - place) * self._length)
+            forces = section_forces(part, (1.0 - place) * self._length)
             motion += weight * virtual.T @ (_flexibility(part)[:, np.newaxis] * forces)
         return motion
 
@@ -146,7 +155,7 @@ def _carried(distance: float) -> FloatArray:
     return rigid_motions(np.array([[distance, 0.0, 0.0]]), np.zeros(3))
 
 
-def _section_forces(part: Slice, distance: float) -> FloatArray:
+def section_forces(part: Slice, distance: float) -> FloatArray:
     """Return the forces in a section by those at a distance beyond it, (6, 6).
 
     Forces and moments on the centroid beyond make a normal force, two shear forces, a torque

@@ -1,0 +1,289 @@
+"""Section forces, stresses and reactions against closed forms; equilibrium of every node."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import bumpstop as bs
+from bumpstop.structure.dofs import DOFS
+
+YOUNG, LENGTH, SIDE = 210e9, 2.0, 0.02
+STEEL = bs.Material(young_modulus=YOUNG, poisson_ratio=0.3, density=7800.0)
+BAR = bs.Rectangle(height=SIDE, width=0.5 * SIDE)
+CLAMP = bs.Support(nodes="A", fixed=DOFS)
+NODES = {"A": (0.0, 0.0, 0.0), "B": (LENGTH, 0.0, 0.0)}
+
+
+def cantilever() -> bs.Structure:
+    beam = bs.Beam("AB", nodes=("A", "B"), elements=5, material=STEEL, section=BAR)
+    return bs.Structure(nodes=NODES, beams=[beam], supports=[CLAMP])
+
+
+def at_rest(structure: bs.Structure, modes: int, *loads: bs.NodalForce) -> bs.Response:
+    """The end of a run that damping has brought to rest."""
+    basis = bs.ModalBasis.from_structure(structure, modes=modes, damping=0.8)
+    run = bs.simulate(bs.Problem(basis, loads=list(loads), duration=20.0))
+    return run.at([20.0])
+
+
+@pytest.fixture(scope="module")
+def run() -> bs.Response:
+    load = bs.NodalForce("end", node="B", force=(7.0, -3.0, 5.0), moment=(0.4, 0.9, -0.6))
+    return at_rest(cantilever(), 1, load)
+
+
+class TestStatic:
+    @pytest.mark.parametrize("at", [0.0, 0.37, 1.2, 2.0])
+    def test_section_forces(self, run: bs.Response, at: float) -> None:
+        found = bs.recovery(run).section_forces("AB", at)
+        arm = LENGTH - at
+        expected = {
+            "N": 7.0,
+            "Vy": -3.0,
+            "Vz": 5.0,
+            "T": 0.4,
+            "My": 0.9 - 5.0 * arm,
+            "Mz": -0.6 - 3.0 * arm,
+        }
+        for name, value in expected.items():
+            assert found[name].values[0] == pytest.approx(value, rel=1e-8, abs=1e-8), name
+        assert found["My"].attrs["units"] == "N m"
+
+    def test_several_sections(self, run: bs.Response) -> None:
+        found = bs.recovery(run).section_forces("AB", [0.0, 1.0])
+        assert found["Mz"].dims == ("time", "at")
+        assert_allclose(found["Mz"].values, [[-6.6, -3.6]], rtol=1e-8)
+
+    def test_stress(self, run: bs.Response) -> None:
+        y, z = -0.006, 0.004
+        found = bs.recovery(run).stress("AB", 0.5, (y, z))
+        my, mz = 0.9 - 5.0 * 1.5, -0.6 - 3.0 * 1.5
+        expected = 7.0 / BAR.area - y * mz / BAR.inertia_z + z * my / BAR.inertia_y
+        assert found.values[0] == pytest.approx(expected, rel=1e-8)
+        strain = bs.recovery(run).strain("AB", 0.5, (y, z))
+        assert strain.values[0] == pytest.approx(expected / YOUNG, rel=1e-8)
+
+    def test_reactions(self, run: bs.Response) -> None:
+        found = bs.recovery(run).reactions("A")
+        expected = (-7.0, 3.0, -5.0, -0.4, -0.9 + 5.0 * LENGTH, 0.6 + 3.0 * LENGTH)
+        assert_allclose([found[dof].values[0] for dof in DOFS], expected, rtol=1e-8)
+        assert found["drx"].attrs["units"] == "N m"
+
+    def test_displacement_under_the_force(self, run: bs.Response) -> None:
+        stretch = bs.recovery(run).displacement("B", "dx")
+        assert stretch.values[0] == pytest.approx(7.0 * LENGTH / (YOUNG * BAR.area), rel=1e-9)
+
+    def test_one_mode_alone_is_far_off(self, run: bs.Response) -> None:
+        bare = bs.recovery(run, static_correction=False).section_forces("AB", 0.0)
+        assert abs(bare["Vy"].values[0] + 3.0) > 0.1
+
+
+def test_a_tapered_beam() -> None:
+    beam = bs.Beam(
+        "AB",
+        nodes=("A", "B"),
+        elements=3,
+        material=STEEL,
+        section=BAR,
+        end_section=bs.Rectangle(height=0.5 * SIDE, width=0.4 * SIDE),
+    )
+    structure = bs.Structure(nodes=NODES, beams=[beam], supports=[CLAMP])
+    run = at_rest(structure, 2, bs.NodalForce("end", node="B", force=(0.0, 0.0, 4.0)))
+    found = bs.recovery(run).section_forces("AB", [0.3, 1.9])
+    assert_allclose(found["My"].values[0], [-4.0 * 1.7, -4.0 * 0.1], rtol=1e-7)
+    assert_allclose(found["Vz"].values[0], 4.0, rtol=1e-7)
+
+
+def test_axes_are_local() -> None:
+    """The same cantilever along the global Z."""
+    beam = bs.Beam("AB", nodes=("A", "B"), elements=2, material=STEEL, section=BAR)
+    nodes = {"A": (0, 0, 0), "B": (0, 0, LENGTH)}
+    structure = bs.Structure(nodes=nodes, beams=[beam], supports=[CLAMP])
+    run = at_rest(structure, 2, bs.NodalForce("end", node="B", force=(0.0, 6.0, -9.0)))
+    found = bs.recovery(run).section_forces("AB", 0.0)
+    assert found["N"].values[0] == pytest.approx(-9.0, rel=1e-8)
+    assert found["Vy"].values[0] == pytest.approx(6.0, rel=1e-8)
+    assert found["Mz"].values[0] == pytest.approx(6.0 * LENGTH, rel=1e-8)
+
+
+def test_a_mass_on_a_light_cantilever_springs_up() -> None:
+    """Under a sudden force the moment at the root is F L (1 - cos w t)."""
+    light = bs.Material(young_modulus=YOUNG, poisson_ratio=0.3, density=1e-9)
+    weight = bs.PointMass("tip", node="B", mass=3.0)
+    beam = bs.Beam(
+        "AB", nodes=("A", "B"), elements=2, material=light, section=BAR, theory="euler_bernoulli"
+    )
+    structure = bs.Structure(nodes=NODES, beams=[beam], masses=[weight], supports=[CLAMP])
+    basis = bs.ModalBasis.from_structure(structure, modes=3)
+    push = bs.NodalForce("push", node="B", force=(0.0, 8.0, 0.0))
+    run = bs.simulate(bs.Problem(basis, loads=[push], duration=2.0))
+    omega = math.sqrt(3.0 * YOUNG * BAR.inertia_z / LENGTH**3 / 3.0)
+    swing = 1.0 - np.cos(omega * run.times)
+    found = bs.recovery(run)
+    moment = found.section_forces("AB", 0.0)["Mz"]
+    assert_allclose(moment, 8.0 * LENGTH * swing, rtol=0, atol=1e-6 * 16.0)
+    stress = found.stress("AB", 0.0, (-0.01, 0.0))
+    largest = 16.0 * 0.01 / BAR.inertia_z
+    assert_allclose(stress, largest * swing, rtol=0, atol=1e-6 * largest)
+    assert_allclose(found.reactions("A")["dy"], -8.0 * swing, rtol=0, atol=1e-6 * 8.0)
+    assert_allclose(found.reactions("A")["drz"], -16.0 * swing, rtol=0, atol=1e-6 * 16.0)
+
+
+def test_a_swinging_cantilever_has_the_moment_of_its_mode() -> None:
+    """In its first mode M = E I w (b/L)2 ... at the root, b = 1.875104 (Euler-Bernoulli)."""
+    beam = bs.Beam(
+        "AB", nodes=("A", "B"), elements=300, material=STEEL, section=BAR, theory="euler_bernoulli"
+    )
+    plane = bs.Support(nodes="all", fixed=("dx", "dz", "drx", "dry"))
+    structure = bs.Structure(nodes=NODES, beams=[beam], supports=[plane, CLAMP])
+    basis = bs.ModalBasis.from_structure(structure, modes=1)
+    tip = float(basis.row("B", "dy")[0])
+    start = bs.ModalState(displacement=[1e-3 / tip])
+    run = bs.simulate(bs.Problem(basis, initial=start, duration=0.1))
+    # The mode cosh - cos - s (sinh - sin) is 2 at the tip, its curvature 2 (b/L)2 at the root.
+    beta = 1.8751040687119611 / LENGTH
+    omega = beta**2 * math.sqrt(YOUNG * BAR.inertia_z / (STEEL.density * BAR.area))
+    moment = YOUNG * BAR.inertia_z * beta**2 * 1e-3 * np.cos(omega * run.times)
+    found = bs.recovery(run).section_forces("AB", 0.0)["Mz"]
+    # Forces by stiffness times displacements err by (b h / L)2 / 12: 3.3e-6 of the mesh's 300.
+    assert_allclose(found, moment, rtol=0, atol=5e-6 * abs(moment[0]))
+
+
+def rattling() -> bs.Response:
+    """A frame with all that there is: springs, a damper, gravity, contact, friction, a shaker."""
+    beam = bs.Beam("AB", nodes=("A", "B"), elements=6, material=STEEL, section=BAR)
+    post = bs.Beam("BC", nodes=("B", "C"), elements=3, material=STEEL, section=BAR)
+    structure = bs.Structure(
+        nodes=NODES | {"C": (LENGTH, 0.0, 0.7)},
+        beams=[beam, post],
+        masses=[bs.PointMass("head", node="C", mass=0.8, inertia=(1e-3, 1e-3, 1e-3))],
+        springs=[
+            bs.Spring(
+                "ground", node="C", stiffness=(900.0, 0, 0, 0, 0, 0), damping=(3.0,) + 5 * (0,)
+            )
+        ],
+        supports=[CLAMP, bs.Support(nodes="C", fixed=("dz",))],
+    )
+    basis = bs.ModalBasis.from_structure(
+        structure, modes=7, damping=0.02, static_shapes=[("AB@1.0", "dy")]
+    )
+    return bs.simulate(
+        bs.Problem(
+            basis,
+            laws=[
+                bs.Stop(
+                    "side",
+                    node="C",
+                    normal=(0, 1, 0),
+                    gap=2e-4,
+                    stiffness=3e4,
+                    damping=4.0,
+                    friction=0.3,
+                    sliding=(1, 0, 0),
+                    tangential_stiffness=2e4,
+                ),
+                bs.SpringLaw(
+                    "pad",
+                    node="AB@1.0",
+                    direction=(0, 1, 0),
+                    stiffness=(800.0, 4000.0),
+                    breaks=(1e-4,),
+                ),
+            ],
+            loads=[
+                bs.Gravity("weight", acceleration=(0.0, -9.81, -2.0)),
+                bs.NodalForce("shaker", node="C", force=(5, 9, 0), time=bs.Harmonic(7.0, sine=1.0)),
+                bs.NodalForce("pull", node="AB@0.5", force=(0, 3, 3), moment=(0.1, 0, 0)),
+            ],
+            duration=0.4,
+            sample=1e-3,
+        )
+    )
+
+
+@pytest.fixture(scope="module")
+def frame() -> bs.Response:
+    return rattling()
+
+
+def test_every_node_is_in_equilibrium(frame: bs.Response) -> None:
+    assert frame.impacts["impulse"].sum() > 0.1  # else the contact is not tested
+    assert np.abs(frame.sample("friction_force", "side")).max() > 0.1
+    found = bs.recovery(frame)
+    model = found.forces.model
+    lacking = found.lacking(frame.times)
+    # Rounding of the elastic forces, which are the largest terms of the sums.
+    sizes = model.stiffness.magnitudes() @ np.abs(found.field(frame.times))
+    free = model.free
+    assert (np.abs(lacking[free]) / sizes.max()).max() < 1e-12
+    held = np.setdiff1d(np.arange(len(model.dofs)), free)
+    assert np.abs(lacking[held]).max() > 1.0
+
+
+def test_forces_add_up(frame: bs.Response) -> None:
+    found = bs.recovery(frame).resultants()
+    largest = max(float(np.abs(found[name]).max()) for name in found if name != "residual")
+    assert float(np.abs(found["residual"]).max()) < 1e-9 * largest
+    by_nodes = sum(bs.recovery(frame).reactions(node)["dz"].values for node in ("A", "C"))
+    assert_allclose(found["reaction"].sel(dof="dz"), by_nodes, rtol=1e-9)
+    contact = frame.sample("stop_force", "side") + frame.sample("stop_force", "pad")
+    assert_allclose(np.abs(found["law"].sel(dof="dy")), np.abs(contact), rtol=1e-9, atol=1e-9)
+
+
+def test_without_correction_they_do_not(frame: bs.Response) -> None:
+    bare = bs.recovery(frame, static_correction=False).resultants()
+    assert float(np.abs(bare["residual"]).max()) > 1e-3
+
+
+def test_a_gauge_reads_the_strain_of_the_section_forces(frame: bs.Response) -> None:
+    found = bs.recovery(frame)
+    forces = found.section_forces("AB", 0.44)
+    y, z = 0.008, -0.003
+    strain = (
+        forces["N"] / (YOUNG * BAR.area)
+        - y * forces["Mz"] / (YOUNG * BAR.inertia_z)
+        + z * forces["My"] / (YOUNG * BAR.inertia_y)
+    )
+    gauge = found.strain("AB", 0.44, (y, z))
+    assert_allclose(gauge, strain, rtol=0, atol=1e-11 * float(np.abs(gauge).max()))
+
+
+def test_motions_of_a_spinning_shaft_balance() -> None:
+    shaft = bs.Beam(
+        "AB",
+        nodes=("A", "B"),
+        elements=4,
+        material=STEEL,
+        section=bs.Circle(radius=0.01),
+        spin=300.0,
+    )
+    ends = bs.Support(nodes=("A", "B"), fixed=("dx", "dy", "dz", "drx"))
+    structure = bs.Structure(nodes=NODES, beams=[shaft], supports=[ends])
+    basis = bs.ModalBasis.from_structure(structure, modes=4, damping=0.01)
+    wall = bs.Stop("wall", node="AB@1.0", normal=(0, -1, 0), gap=1e-3, stiffness=1e4)
+    push = bs.NodalForce("push", node="AB@0.7", force=(0, 20.0, 5.0))
+    run = bs.simulate(bs.Problem(basis, laws=[wall], loads=[push], duration=0.3))
+    found = bs.recovery(run).resultants()
+    largest = float(np.abs(found["load"]).max())
+    assert float(np.abs(found["residual"]).max()) < 1e-9 * largest
+
+
+def test_needs_a_structure() -> None:
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    run = bs.simulate(bs.Problem(basis, duration=1.0))
+    with pytest.raises(bs.InputError, match="masses of a structure"):
+        bs.recovery(run)
+
+
+def test_refuses(frame: bs.Response) -> None:
+    found = bs.recovery(frame)
+    with pytest.raises(bs.InputError, match="unknown beam"):
+        found.section_forces("AX", 0.1)
+    with pytest.raises(bs.InputError, match="must be on the beam"):
+        found.section_forces("AB", 2.5)
+    with pytest.raises(bs.InputError, match="those of nodes"):
+        found.reactions("AB@0.3")
+    with pytest.raises(bs.InputError, match="outside the section"):
+        found.stress("AB", 0.1, (1.0, 0.0))
