@@ -21,16 +21,20 @@ if TYPE_CHECKING:
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
+    from bumpstop.loads.accelerogram import Accelerogram
     from bumpstop.loads.base_motion import BaseMotion
+    from bumpstop.loads.density import SpectralDensity
     from bumpstop.loads.expression import Expression
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.loads.line_force import LineForce
     from bumpstop.loads.product import Product
+    from bumpstop.loads.random_signal import RandomSignal
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.loads.translation import RigidTranslation
+    from bumpstop.loads.turbulence import Turbulence
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.modal.certificate import SturmCount
     from bumpstop.modal.damping import RayleighDamping, StructuralDamping
@@ -76,6 +80,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Accelerogram",
     "AllModes",
     "Assembly",
     "BaseMotion",
@@ -113,6 +118,7 @@ __all__ = [
     "Polynomial",
     "Problem",
     "Product",
+    "RandomSignal",
     "RayleighDamping",
     "Recovery",
     "Rectangle",
@@ -125,6 +131,7 @@ __all__ = [
     "RigidTranslation",
     "Rotation",
     "Section",
+    "SpectralDensity",
     "Spring",
     "SpringLaw",
     "StaticShapes",
@@ -136,6 +143,7 @@ __all__ = [
     "Sweep",
     "TimeTable",
     "Tube",
+    "Turbulence",
     "campbell",
     "complex_modes",
     "contact_impacts",
@@ -157,6 +165,7 @@ __all__ = [
 ]
 
 _HOME = {
+    "Accelerogram": "loads.accelerogram",
     "AllModes": "modal.selection",
     "Assembly": "modal.substructure.assembly",
     "BaseMotion": "loads.base_motion",
@@ -194,6 +203,7 @@ _HOME = {
     "Polynomial": "loads.time",
     "Problem": "problem",
     "Product": "loads.product",
+    "RandomSignal": "loads.random_signal",
     "RayleighDamping": "modal.damping",
     "Recovery": "post.recovery",
     "Rectangle": "structure.sections.rectangle",
@@ -206,6 +216,7 @@ _HOME = {
     "RigidTranslation": "loads.translation",
     "Rotation": "modal.substructure.rotation",
     "Section": "structure.sections.section",
+    "SpectralDensity": "loads.density",
     "Spring": "structure.spring",
     "SpringLaw": "laws.spring",
     "StaticShapes": "modal.static_shapes",
@@ -217,6 +228,7 @@ _HOME = {
     "Sweep": "loads.sweep",
     "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
+    "Turbulence": "loads.turbulence",
     "campbell": "modal.rotor",
     "complex_modes": "modal.oscillation",
     "contact_impacts": "post.contacts",

@@ -160,8 +160,24 @@ class Problem:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What a user should know, a line each: of the basis, then of the initial state."""
-        return (*self.basis.remarks, *self.initial_remarks)
+        """What a user should know, a line each: of the basis, the initial state, the loads."""
+        return (*self.basis.remarks, *self.initial_remarks, *self.load_remarks)
+
+    @property
+    def load_remarks(self) -> tuple[str, ...]:
+        """What a user should know of the functions of time, a line each."""
+        functions = {
+            function: load.name
+            for load in self.loads
+            for component in load.components(self.basis)
+            for function in component.functions
+        }
+        # Few functions have any.
+        return tuple(
+            f"{name}: {remark}"
+            for function, name in functions.items()
+            for remark in getattr(function, "remarks", ())
+        )
 
     @property
     def initial_remarks(self) -> tuple[str, ...]:

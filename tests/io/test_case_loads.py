@@ -269,3 +269,40 @@ def test_loads_along_beams_and_their_static_shapes(tmp_path: Path) -> None:
     (tmp_path / "case.toml").write_text(BEAM + text.replace('["wind"]', '"all"'))
     problem = bs.load_case(tmp_path / "case.toml").problems["base"]
     assert len(problem.basis.labels) == 4
+
+
+def test_random_loads(tmp_path: Path) -> None:
+    (tmp_path / "psd.csv").write_text("f,S\n1,4\n50,4\n")
+    text = (
+        "[basis]\nmodes = 2\n"
+        '[loads.flow]\ntype = "turbulence"\nbeam = "AB"\ndirection = [0, 1, 0]\n'
+        'psd = { file = "psd.csv" }\ncorrelation_length = "30 cm"\nseed = 3\nperiod = "1 s"\n'
+        '[loads.noise]\ntype = "force"\nnode = "B"\nforce = [0, 2, 0]\n'
+        "product = [{ random = { psd = { frequencies = [1, 50], values = [1, 1] }, seed = 1, "
+        "period = 1 } }, { table = { times = [0, 1], values = [0, 1] } }]\n"
+        "[base_motion]\nacceleration = [0, 1, 0]\n"
+        "[base_motion.accelerogram]\ndamping = 0.05\nduration = 3\nseed = 1\n"
+        "spectrum = { frequencies = [2, 20], values = [3, 3] }\n"
+    )
+    (tmp_path / "case.toml").write_text(BEAM + text)
+    problem = bs.load_case(tmp_path / "case.toml").problems["base"]
+    flow, noise, quake = problem.loads
+    assert isinstance(flow, bs.Turbulence)
+    assert flow.density.rms == pytest.approx(14.0)
+    assert isinstance(noise, bs.NodalForce)
+    assert isinstance(quake, bs.BaseMotion)
+    assert isinstance(quake.functions[0], bs.Accelerogram)
+    assert bs.simulate(problem).sample("displacement", "B", "dy").any()
+    for wrong, message in (
+        (text.replace("psd.csv", "none.csv"), r"none\.csv: no such file"),
+        (text.replace("values = [1, 1] }, seed", "values = [1] }, seed"), r"random\.psd\.values: "),
+        (
+            text.replace("duration = 3\n", "duration = 0.1\n"),
+            r"accelerogram\.duration",
+        ),
+        (text.replace("values = [3, 3]", "values = [3]"), r"accelerogram\.spectrum\.values"),
+        (text.replace('"30 cm"', "0"), r"loads\.flow\.correlation_length: must be positive"),
+    ):
+        (tmp_path / "case.toml").write_text(BEAM + wrong)
+        with pytest.raises(bs.InputError, match=message):
+            bs.load_case(tmp_path / "case.toml")

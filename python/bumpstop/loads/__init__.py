@@ -7,18 +7,23 @@ from typing import TYPE_CHECKING
 from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from bumpstop.loads.accelerogram import Accelerogram
     from bumpstop.loads.base_motion import BaseMotion
+    from bumpstop.loads.density import SpectralDensity
     from bumpstop.loads.expression import Expression
     from bumpstop.loads.force import NodalForce
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.loads.line_force import LineForce
     from bumpstop.loads.product import Product
+    from bumpstop.loads.random_signal import RandomSignal
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.loads.translation import RigidTranslation
+    from bumpstop.loads.turbulence import Turbulence
 
 __all__ = [
+    "Accelerogram",
     "BaseMotion",
     "Expression",
     "Gravity",
@@ -28,15 +33,19 @@ __all__ = [
     "NodalForce",
     "Polynomial",
     "Product",
+    "RandomSignal",
     "RigidRotation",
     "RigidTranslation",
+    "SpectralDensity",
     "Sweep",
     "TimeTable",
+    "Turbulence",
 ]
 
 __getattr__ = lazy_names(
     __name__,
     {
+        "Accelerogram": "accelerogram",
         "BaseMotion": "base_motion",
         "Expression": "expression",
         "Gravity": "gravity",
@@ -46,9 +55,12 @@ __getattr__ = lazy_names(
         "NodalForce": "force",
         "Polynomial": "time",
         "Product": "product",
+        "RandomSignal": "random_signal",
         "RigidRotation": "initial",
         "RigidTranslation": "translation",
+        "SpectralDensity": "density",
         "Sweep": "sweep",
         "TimeTable": "time",
+        "Turbulence": "turbulence",
     },
 )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop import loads
 from bumpstop.io.case.keys import keyed
-from bumpstop.io.case.tables.table import written_keys
+from bumpstop.io.case.tables.table import keys_of, written_keys
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.base_motion import BaseMotionTable
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
 
 __all__ = ["BASE_MOTION", "built_loads"]
 
-_TIMES = frozenset(("harmonics", "polynomial", "table", "sweeps", "expression", "product"))
-"""Keys of a load that say how it changes."""
-_NOT_OF_LOADS = {"type", "line_tolerance", *_TIMES}
 _CLASSES = {"force": "NodalForce", "line_force": "LineForce"}
 BASE_MOTION = "base_motion"
 """Table of the motion of the supports, and the name of the load that it makes."""
@@ -37,7 +34,11 @@ def _load(name: str, table: LoadTable, folder: Path) -> Load:
     with keyed(f"loads.{name}"):
         if table.type == "gravity":
             return loads.Gravity(name, acceleration=table.acceleration)
-        said = {key: value for key, value in table if key not in _NOT_OF_LOADS}
+        if table.type == "turbulence":
+            from bumpstop.io.case.build.random import built_turbulence
+
+            return built_turbulence(name, table, folder)
+        said = {key: value for key, value in table if key not in {"type", *_time_keys()}}
         made: Load = getattr(loads, _CLASSES[table.type])(name, **said, time=_time(table, folder))
         return made
 
@@ -49,8 +50,15 @@ def _base_motion(table: BaseMotionTable, folder: Path) -> Load:
 
 
 def _time(table: TimeKeys, folder: Path) -> list[TimeFunction] | None:
-    if not written_keys(table) & _TIMES:
+    if written_keys(table).isdisjoint(_time_keys()):
         return None
     from bumpstop.io.case.build.time import built_time
 
     return built_time(table, folder)
+
+
+def _time_keys() -> tuple[str, ...]:
+    """Return the keys of a load that say how it changes."""
+    from bumpstop.io.case.tables.time import TimeKeys
+
+    return tuple(keys_of(TimeKeys))

@@ -54,6 +54,12 @@ def _sum(table: FactorTable, folder: Path, tolerance: float) -> list[TimeFunctio
     for number, sweep in enumerate(table.sweeps):
         with keyed(f"sweeps.{number}"):
             functions.append(loads.Sweep(**dict(sweep), tolerance=tolerance))
+    for key in ("random", "accelerogram"):
+        if getattr(table, key) is not None:
+            from bumpstop.io.case.build import random
+
+            with keyed(key):
+                functions.append(getattr(random, f"built_{key}")(getattr(table, key), folder))
     if table.expression is not None:
         with keyed(renamed={"formula": "expression", "tolerance": "line_tolerance"}):
             functions.append(loads.Expression(table.expression, tolerance=tolerance))

@@ -20,6 +20,7 @@ __all__ = [
     "Density",
     "Force",
     "Force3",
+    "Frequencies",
     "Frequency",
     "Frequency2",
     "Length",
@@ -205,6 +206,7 @@ LineForce3 = Annotated[tuple[float, float, float], _vector(_LINE_FORCE)]
 Force3 = Annotated[tuple[float, float, float], _vector(_FORCE)]
 Moment3 = Annotated[tuple[float, float, float], _vector(_MOMENT)]
 
+Frequencies = Annotated[list[float], _series(_FREQUENCY, least=0)]
 Times = Annotated[list[float], _series(_TIME, least=0)]
 Numbers = Annotated[list[float], _series(_NUMBER)]
 

@@ -1,19 +1,29 @@
 """``[loads.NAME]``: one table a type of load."""
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
+from bumpstop.io.case.fields.counts import Count, CountFromZero
 from bumpstop.io.case.fields.quantities import (
     Acceleration3,
     Force3,
     Length,
     LineForce3,
     Moment3,
+    Number3,
+    PositiveLength,
+    PositiveTime,
 )
 from bumpstop.io.case.fields.words import BeamName, Node, choice
+from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.table import Field, Kinds, Table
 from bumpstop.io.case.tables.time import TimeKeys
 
-__all__ = ["ForceTable", "GravityTable", "LineForceTable", "LoadTable"]
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.random import DensityTable
+else:
+    DensityTable = later("random", "DensityTable")
+
+__all__ = ["ForceTable", "GravityTable", "LineForceTable", "LoadTable", "TurbulenceTable"]
 
 
 class ForceTable(TimeKeys):
@@ -52,4 +62,31 @@ class GravityTable(Table):
     acceleration: Acceleration3 = Field(description="Components along X, Y, Z, in m/s2")
 
 
-LoadTable = Annotated[ForceTable | LineForceTable | GravityTable, Kinds("type")]
+class TurbulenceTable(Table):
+    """Random forces of a flow along a beam, correlated over a length."""
+
+    type: Literal["turbulence"] = Field(description="Kind of load")
+    beam: BeamName = Field(description="The beam it acts on")
+    direction: Number3 = Field(description="Along which the force acts; its length multiplies it")
+    psd: DensityTable = Field(
+        description="One-sided spectral density of the force per length, in (N/m)^2/Hz"
+    )
+    correlation_length: PositiveLength = Field(
+        description="Over which the coherence exp(-distance / length) falls, in m"
+    )
+    seed: CountFromZero = Field(description="A whole number that decides the phases")
+    period: PositiveTime = Field(
+        description="After how long it repeats itself, in s: not less than the run"
+    )
+    start: Length = Field(default=0.0, description="Where it begins, in m from the first node")
+    end: Length | None = Field(
+        default=None, description="Where it ends, in m from the first node; at the last one else"
+    )
+    cells: Count | None = Field(
+        default=None,
+        description="Cells in which the force is uniform; else four a correlation length, 32 at "
+        "least and 128 at most",
+    )
+
+
+LoadTable = Annotated[ForceTable | LineForceTable | GravityTable | TurbulenceTable, Kinds("type")]

@@ -1,6 +1,6 @@
 """How loads change in time: keys that their tables share."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from bumpstop.io.case.fields.counts import CountFromZero
 from bumpstop.io.case.fields.quantities import (
@@ -16,7 +16,14 @@ from bumpstop.io.case.fields.quantities import (
     WrittenList,
 )
 from bumpstop.io.case.fields.words import Text, Units, choice
+from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.table import Field, Table
+
+if TYPE_CHECKING:
+    from bumpstop.io.case.tables.random import AccelerogramTable, RandomTable
+else:
+    AccelerogramTable = later("random", "AccelerogramTable")
+    RandomTable = later("random", "RandomTable")
 
 __all__ = ["FactorTable", "HarmonicTable", "SweepTable", "TimeKeys", "TimeTableTable"]
 
@@ -88,6 +95,12 @@ class FactorTable(Table):
     )
     table: TimeTableTable | None = Field(default=None, description="A table of values over time")
     sweeps: list[SweepTable] = Field(default=[], description="Sines whose frequency rises or falls")
+    random: RandomTable | None = Field(
+        default=None, description="A stationary random function with a spectral density"
+    )
+    accelerogram: AccelerogramTable | None = Field(
+        default=None, description="A random acceleration that meets a response spectrum"
+    )
     expression: Text | None = Field(
         default=None,
         description='A formula in the time t in s, such as "exp(-3 * t) * sin(20 * t)": numbers, '
