@@ -76,6 +76,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.spring import Spring
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
+    from bumpstop.study.convergence import Convergence, converge
 
 __version__ = "0.1.0"
 
@@ -94,6 +95,7 @@ __all__ = [
     "Component",
     "ComputationError",
     "ContactStatistics",
+    "Convergence",
     "Expression",
     "FrequencyResponse",
     "Friction",
@@ -148,6 +150,7 @@ __all__ = [
     "complex_modes",
     "contact_impacts",
     "contact_statistics",
+    "converge",
     "craig_bampton",
     "free_interface",
     "generalised_mass",
@@ -179,6 +182,7 @@ _HOME = {
     "Component": "modal.substructure.component",
     "ComputationError": "errors",
     "ContactStatistics": "post.statistics",
+    "Convergence": "study.convergence",
     "Expression": "loads.expression",
     "FrequencyResponse": "modal.frequency_response",
     "Friction": "laws.friction",
@@ -233,6 +237,7 @@ _HOME = {
     "complex_modes": "modal.oscillation",
     "contact_impacts": "post.contacts",
     "contact_statistics": "post.statistics",
+    "converge": "study.convergence",
     "craig_bampton": "modal.substructure.craig_bampton",
     "free_interface": "modal.substructure.free_interface",
     "generalised_mass": "modal.masses",

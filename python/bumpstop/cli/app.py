@@ -187,6 +187,29 @@ def _verify(parser: ArgumentParser) -> Callable[[Namespace], int]:
     return work
 
 
+def _converge(parser: ArgumentParser) -> Callable[[Namespace], int]:
+    """Tell how wrong a case's results are: errors of time, basis and mesh."""
+    _takes_case(parser)
+    _takes_method(parser)
+    told = "How often steps and elements are halved; 3 if left out."
+    parser.add_argument("--levels", type=int, metavar="N", default=3, help=told)
+    _takes_folder(parser, None, "Write DIR/report.html, with the errors drawn.")
+    _takes_json(parser)
+
+    def work(given: Namespace) -> int:
+        from bumpstop.cli.converge import converge_command
+
+        return converge_command(
+            given.case,
+            stepping=_stepping(given),
+            levels=given.levels,
+            out=given.out,
+            json=given.json,
+        )
+
+    return work
+
+
 def _report(parser: ArgumentParser) -> Callable[[Namespace], int]:
     """Simulate a case and write its report alone."""
     _takes_case(parser)
@@ -216,6 +239,7 @@ COMMANDS: dict[str, Callable[[ArgumentParser], Callable[[Namespace], int]]] = {
     "run": _run,
     "modes": _modes,
     "verify": _verify,
+    "converge": _converge,
     "report": _report,
     "schema": _schema,
 }

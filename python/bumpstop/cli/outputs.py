@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from bumpstop.cli.solve import CaseResult, frequency_checks
 from bumpstop.cli.staging import all_or_nothing
 from bumpstop.io.case import Case
+
+if TYPE_CHECKING:
+    from bumpstop.study.convergence import Convergence
 
 __all__ = [
     "MODES",
     "REPORT",
     "older_outputs",
     "output_names",
+    "write_convergence",
     "write_modes_page",
     "write_outputs",
     "write_report_alone",
@@ -67,6 +72,26 @@ def write_report_alone(result: CaseResult, folder: Path) -> None:
     """
     with all_or_nothing(folder) as staging:
         _write_report(result, staging)
+
+
+def write_convergence(found: Convergence, folder: Path) -> None:
+    """Write ``report.html``, with the errors that a study of convergence found.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written; then the folder stays as it was.
+    """
+    from bumpstop.report.html import write_modes, write_report
+
+    variants = found.variants.items()
+    checks = {name: variant.checks for name, variant in variants}
+    responses = {name: each.response for name, each in variants if each.response is not None}
+    with all_or_nothing(folder) as staging:
+        if responses:
+            write_report(found.case, responses, checks, staging / REPORT, found)
+        else:
+            write_modes(found.case, checks, staging / REPORT, found)
 
 
 def write_modes_page(case: Case, folder: Path) -> None:

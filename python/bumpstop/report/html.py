@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from bumpstop.errors import ComputationError
 from bumpstop.files import written_whole
+from bumpstop.report.convergence import add_convergence
 from bumpstop.report.encode import script_json
 from bumpstop.report.page import modes_content, page_content
 from bumpstop.report.palette import style_rules
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case import Case
     from bumpstop.post.references import Check
     from bumpstop.response import Response
+    from bumpstop.study.convergence import Convergence
 
 __all__ = ["write_modes", "write_report"]
 
@@ -46,6 +48,7 @@ def write_report(
     responses: Mapping[str, Response],
     checks: Mapping[str, Sequence[Check]],
     path: str | os.PathLike[str],
+    convergence: Convergence | None = None,
 ) -> None:
     """Write the report of a case to one HTML file.
 
@@ -59,6 +62,8 @@ def write_report(
         Computed beside published values of each variant; a variant may have none.
     path
         File to write. A file of that name is replaced once the new one is complete.
+    convergence
+        How wrong the results can be, where that was found.
 
     Raises
     ------
@@ -66,6 +71,8 @@ def write_report(
         If the file cannot be written there.
     """
     content, data = page_content(case, responses, checks)
+    if convergence is not None:
+        add_convergence(convergence, content, data)
     page = _page("report.html.j2", content, data)
     # plotly.js is most of the page: it is copied as bytes and never decoded.
     before, after = page.split(PLOTLY_MARK)
@@ -74,7 +81,10 @@ def write_report(
 
 
 def write_modes(
-    case: Case, checks: Mapping[str, Sequence[Check]], path: str | os.PathLike[str]
+    case: Case,
+    checks: Mapping[str, Sequence[Check]],
+    path: str | os.PathLike[str],
+    convergence: Convergence | None = None,
 ) -> None:
     """Write a page that draws the modes of a case to one HTML file.
 
@@ -86,6 +96,8 @@ def write_modes(
         Computed beside published frequencies of each variant; a variant may have none.
     path
         File to write. A file of that name is replaced once the new one is complete.
+    convergence
+        How wrong the frequencies can be, where that was found; told in tables alone.
 
     Raises
     ------
@@ -93,6 +105,8 @@ def write_modes(
         If the file cannot be written there.
     """
     content, data = modes_content(case, checks)
+    if convergence is not None:
+        add_convergence(convergence, content, data, drawn=False)
     page = _page("modes.html.j2", content, data)
     with written_whole(path) as part:
         part.write_text(page, encoding="utf-8")

@@ -110,6 +110,7 @@ def _head(case: Case, checks: Mapping[str, Sequence[Check]]) -> dict[str, Any]:
         "case_name": case.name,
         "version": __version__,
         "verdict": verdict([check for some in checks.values() for check in some]),
+        "convergence": [],
     }
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple, TypedDict
+from typing import Any, NamedTuple, TypedDict
 
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.post.references import Reference
@@ -51,6 +52,8 @@ class Case:
         How the time of each problem is integrated.
     method, method_options
         The same for the case without its variants.
+    documents
+        What the file says of each variant, as TOML has it: what finer models are made of.
     """
 
     name: str
@@ -63,3 +66,4 @@ class Case:
     methods: dict[str, Method]
     method: str
     method_options: MethodOptions
+    documents: Mapping[str, dict[str, Any]] = field(default_factory=dict, repr=False)

@@ -26,13 +26,10 @@ from bumpstop.io.case.tables.run import RunTable
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.problem import Problem
 
-__all__ = ["load_case"]
+__all__ = ["checked_tables", "load_case", "with_components"]
 
 BASE = "base"
 """Name of the one variant of a case without variants."""
-
-_IN_TIME = ("stops", "laws", "loads", "base_motion", "initial", "gauges", "outputs")
-"""Tables that mean nothing where nothing is simulated."""
 
 
 def load_case(path: str | PathLike[str]) -> Case:
@@ -64,8 +61,10 @@ def load_case(path: str | PathLike[str]) -> Case:
 
 
 def _case(file: Path, document: dict[str, Any]) -> Case:
-    base = _checked(document, file.parent)
-    variants = _variants(document, base, file.parent)
+    whole = with_components(document, file.parent)
+    base = checked_tables(whole)
+    documents = _documents(document, base, file.parent) or {BASE: whole}
+    variants = _variants(documents, base, file.parent)
     bases, problems = _built(variants, base, file.parent)
     method = _method(base.run) if base.run is not None else Method("auto", {})
     name = _readable(file.absolute().parent.name)
@@ -82,7 +81,31 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
         },
         method=method.name,
         method_options=method.options,
+        documents=documents,
     )
+
+
+def with_components(document: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Return a file's content with the structures of other files that its components name."""
+    if "components" not in document:
+        return document
+    from bumpstop.io.case.component_files import with_component_files
+
+    return with_component_files(document, folder)
+
+
+def checked_tables(document: dict[str, Any]) -> CaseFile:
+    """Return the tables of a file's content.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing, or a value cannot be used.
+    """
+    try:
+        return checked(CaseFile, document)
+    except ValidationError as error:
+        raise first_mistake(error, CaseFile) from error
 
 
 def _readable(name: str) -> str:
@@ -97,27 +120,29 @@ def _method(run: RunTable) -> Method:
     return Method(run.method, options)
 
 
-def _checked(document: dict[str, Any], folder: Path) -> CaseFile:
-    if "components" in document:
-        from bumpstop.io.case.component_files import with_component_files
-
-        document = with_component_files(document, folder)
-    try:
-        return checked(CaseFile, document)
-    except ValidationError as error:
-        raise first_mistake(error, CaseFile) from error
-
-
-def _variants(document: dict[str, Any], base: CaseFile, folder: Path) -> dict[str, CaseFile]:
-    """Return the tables of each variant; the case alone where there is none."""
-    variants = {}
+def _documents(document: dict[str, Any], base: CaseFile, folder: Path) -> dict[str, dict[str, Any]]:
+    """Return what the file says of each variant."""
+    documents = {}
     for name, changes in base.variants.items():
         with _in_variant(name, base, folder):
-            variants[name] = _checked(overridden(document, changes), folder)
+            documents[name] = with_components(overridden(document, changes), folder)
+    return documents
+
+
+def _variants(
+    documents: dict[str, dict[str, Any]], base: CaseFile, folder: Path
+) -> dict[str, CaseFile]:
+    """Return the tables of each variant; the case alone where there is none."""
+    if not base.variants:
+        return {BASE: base}
+    variants = {}
+    for name, document in documents.items():
+        with _in_variant(name, base, folder):
+            variants[name] = checked_tables(document)
             if base.run is None and variants[name].run is not None:
                 hint = "give [run] in the case itself"
                 raise InputError("is given in a variant alone", key="run", hint=hint)
-    return variants or {BASE: base}
+    return variants
 
 
 def _built(
@@ -128,22 +153,10 @@ def _built(
     bases, problems = {}, {}
     for name, tables in variants.items():
         with _in_variant(name, base, folder):
-            bases[name], problem = _variant(builder, tables)
+            bases[name], problem = builder.variant(tables)
             if problem is not None:
                 problems[name] = problem
     return bases, problems
-
-
-def _variant(builder: Builder, tables: CaseFile) -> tuple[ModalBasis, Problem | None]:
-    if tables.run is not None:
-        problem = builder.problem(tables, tables.run)
-        return problem.basis, problem
-    for part in _IN_TIME:
-        if getattr(tables, part):
-            what = f"is missing, and there are {part}"
-            hint = "say how long to simulate; modes alone need none of these"
-            raise InputError(what, key="run", hint=hint)
-    return builder.basis(tables), None
 
 
 @contextmanager
@@ -156,7 +169,7 @@ def _in_variant(name: str, base: CaseFile, folder: Path) -> Iterator[None]:
             raise
         key = error.key or ""
         if not _changed(key, base.variants[name]):
-            _variant(Builder(folder), base)
+            Builder(folder).variant(base)
         quoted = key if key.startswith('"') else f'"{key}"'
         raise InputError(
             error.what, key=f"variants.{name}.{quoted}", value=error.value, hint=error.hint

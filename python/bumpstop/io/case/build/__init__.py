@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bumpstop.errors import InputError
 from bumpstop.io.case.build.basis import built_basis, load_tables, static_places
 from bumpstop.io.case.build.gauges import built_gauges
 from bumpstop.io.case.build.initial import built_initial, state_key
@@ -26,6 +27,9 @@ __all__ = ["Builder"]
 _STRUCTURE = (*SOURCES, *keys_of(StructureTables), "components", "joints", "basis")
 """Tables that the modes are made of."""
 
+_IN_TIME = ("stops", "laws", "loads", "base_motion", "initial", "gauges", "outputs")
+"""Tables that mean nothing where nothing is simulated."""
+
 
 class Builder:
     """Builds the problems of one case; variants of the same structure share its modes.
@@ -39,6 +43,24 @@ class Builder:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._bases: list[tuple[CaseFile, ModalBasis]] = []
+
+    def variant(self, case: CaseFile) -> tuple[ModalBasis, Problem | None]:
+        """Return the modes that the tables describe, and the problem where they have ``[run]``.
+
+        Raises
+        ------
+        InputError
+            As `problem` does.
+        """
+        if case.run is not None:
+            problem = self.problem(case, case.run)
+            return problem.basis, problem
+        for part in _IN_TIME:
+            if getattr(case, part):
+                what = f"is missing, and there are {part}"
+                hint = "say how long to simulate; modes alone need none of these"
+                raise InputError(what, key="run", hint=hint)
+        return self.basis(case), None
 
     def problem(self, case: CaseFile, run: RunTable) -> Problem:
         """Return the problem that the tables describe, for as long as `run` says.

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.dofs import Place
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["built_basis", "load_tables", "static_places"]
+__all__ = ["built_basis", "built_model", "load_tables", "static_places"]
 
 
 def built_basis(case: CaseFile, folder: Path) -> ModalBasis:
@@ -25,7 +25,7 @@ def built_basis(case: CaseFile, folder: Path) -> ModalBasis:
         from bumpstop.io.case.build.modes import built_modes
 
         return built_modes(case, case.modes, folder)
-    structure = _model(case, folder)
+    structure = built_model(case, folder)
     table = case.basis
     with keyed("basis"):
         return ModalBasis.from_structure(
@@ -42,7 +42,8 @@ def built_basis(case: CaseFile, folder: Path) -> ModalBasis:
         )
 
 
-def _model(case: CaseFile, folder: Path) -> LinearModel:
+def built_model(case: CaseFile, folder: Path) -> LinearModel:
+    """Return what the modes are computed from; the case has no modes of its own."""
     if case.matrices is not None:
         from bumpstop.io.case.build.matrices import built_matrices
 

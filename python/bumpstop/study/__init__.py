@@ -1,0 +1,1 @@
+"""Many runs of one case: how its results change with what it is made of."""
