@@ -53,8 +53,22 @@ if TYPE_CHECKING:
     from bumpstop.modal.substructure.reduced import ReducedComponent
     from bumpstop.modal.substructure.rotation import Rotation
     from bumpstop.post.contacts import contact_impacts
+    from bumpstop.post.poincare import (
+        Periodicity,
+        bifurcation,
+        impact_section,
+        periodicity,
+        stroboscopic_section,
+    )
     from bumpstop.post.recovery import Recovery, recovery
+    from bumpstop.post.response_spectrum import response_spectrum
     from bumpstop.post.sampled import sampled_impacts
+    from bumpstop.post.signals import (
+        amplitude_spectrum,
+        envelope,
+        power_spectral_density,
+        spectrogram,
+    )
     from bumpstop.post.statistics import ContactStatistics, contact_statistics
     from bumpstop.problem import Problem
     from bumpstop.report.arrays import plot
@@ -115,6 +129,7 @@ __all__ = [
     "ModesInBand",
     "NodalForce",
     "Participation",
+    "Periodicity",
     "Placed",
     "PointMass",
     "Polynomial",
@@ -146,24 +161,33 @@ __all__ = [
     "TimeTable",
     "Tube",
     "Turbulence",
+    "amplitude_spectrum",
+    "bifurcation",
     "campbell",
     "complex_modes",
     "contact_impacts",
     "contact_statistics",
     "converge",
     "craig_bampton",
+    "envelope",
     "free_interface",
     "generalised_mass",
     "identify_modes",
+    "impact_section",
     "load_case",
     "participation",
+    "periodicity",
     "plot",
+    "power_spectral_density",
     "read_matrices",
     "read_mesh",
     "read_modes",
     "recovery",
+    "response_spectrum",
     "sampled_impacts",
     "simulate",
+    "spectrogram",
+    "stroboscopic_section",
     "write_matrices",
 ]
 
@@ -202,6 +226,7 @@ _HOME = {
     "ModesInBand": "modal.selection",
     "NodalForce": "loads.force",
     "Participation": "modal.masses",
+    "Periodicity": "post.poincare",
     "Placed": "modal.substructure.placed",
     "PointMass": "structure.mass",
     "Polynomial": "loads.time",
@@ -233,24 +258,33 @@ _HOME = {
     "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
     "Turbulence": "loads.turbulence",
+    "amplitude_spectrum": "post.signals",
+    "bifurcation": "post.poincare",
     "campbell": "modal.rotor",
     "complex_modes": "modal.oscillation",
     "contact_impacts": "post.contacts",
     "contact_statistics": "post.statistics",
     "converge": "study.convergence",
     "craig_bampton": "modal.substructure.craig_bampton",
+    "envelope": "post.signals",
     "free_interface": "modal.substructure.free_interface",
     "generalised_mass": "modal.masses",
     "identify_modes": "io.modes",
+    "impact_section": "post.poincare",
     "load_case": "io.case",
     "participation": "modal.masses",
+    "periodicity": "post.poincare",
     "plot": "report.arrays",
+    "power_spectral_density": "post.signals",
     "read_matrices": "io.matrices",
     "read_mesh": "io.meshes",
     "read_modes": "io.modes",
     "recovery": "post.recovery",
+    "response_spectrum": "post.response_spectrum",
     "sampled_impacts": "post.sampled",
     "simulate": "simulate",
+    "spectrogram": "post.signals",
+    "stroboscopic_section": "post.poincare",
     "write_matrices": "io.matrices",
 }
 """Where each public name lives."""

@@ -1,0 +1,249 @@
+"""Poincaré sections of a run, bifurcation data, and whether a motion is periodic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, count, finite, not_negative, positive
+from bumpstop.errors import InputError
+from bumpstop.post.impacts import impacts_of
+from bumpstop.quantities import dof_units
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+    from bumpstop.response import Response
+
+__all__ = ["Periodicity", "bifurcation", "impact_section", "periodicity", "stroboscopic_section"]
+
+
+def stroboscopic_section(
+    response: Response,
+    node: str,
+    dof: str,
+    period: float,
+    *,
+    phase: float = 0.0,
+    start: float = 0.0,
+) -> xr.Dataset:
+    """Return displacement and velocity of a node once in each period.
+
+    Parameters
+    ----------
+    response
+        The run.
+    node, dof
+        Whose motion.
+    period
+        In s, mostly that of the load.
+    phase
+        When in the period, as a part of it.
+    start
+        Instants before it, in s, are left out: the transient.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``displacement`` and ``velocity`` over ``time``; SI units.
+
+    Raises
+    ------
+    InputError
+        If the run has no such node, or no such instant.
+    """
+    import xarray as xr
+
+    times = _strobes(response, period, phase, start)
+    found = {}
+    for quantity in ("displacement", "velocity"):
+        attributes = {
+            "units": dof_units(quantity, dof),
+            "long_name": f"{quantity} of {node} along {dof}",
+        }
+        values = response.sample(quantity, node, dof, times=times)
+        found[quantity] = ("time", values, attributes | {"drawn": "points"})
+    where = {"time": ("time", times, {"units": "s", "long_name": "time"})}
+    return xr.Dataset(found, coords=where, attrs={"period": period, "phase": phase})
+
+
+def impact_section(
+    response: Response, stop: str, *, period: float | None = None, start: float = 0.0
+) -> pd.DataFrame:
+    """Return the Poincaré section at the closings of a stop.
+
+    Parameters
+    ----------
+    response
+        The run.
+    stop
+        Name of the stop.
+    period
+        Of the load, in s; the phases of the closings in it are told where it is given.
+    start
+        Closings before it, in s, are left out.
+
+    Returns
+    -------
+    pandas.DataFrame
+        ``time`` in s, ``closing_speed`` in m/s, and ``phase`` as a part of the period.
+
+    Raises
+    ------
+    InputError
+        If there is no such stop, or the period is not positive.
+    """
+    import pandas as pd
+
+    contacts = impacts_of(response, response.law_index(stop))
+    late = contacts["start"] >= not_negative("start", start)
+    columns = {"time": contacts["start"][late], "closing_speed": contacts["closing_speed"][late]}
+    if period is not None:
+        columns["phase"] = np.mod(columns["time"] / positive("period", period), 1.0)
+    table = pd.DataFrame(columns)
+    table.attrs["units"] = {"time": "s", "closing_speed": "m/s", "phase": "1"}
+    return table
+
+
+def bifurcation(
+    runs: Mapping[float, Response] | Iterable[tuple[float, Response]],
+    section: Callable[[Response], object],
+    *,
+    parameter: str = "parameter",
+    units: str = "1",
+) -> pd.DataFrame:
+    """Return the points of a section of each run, for a bifurcation diagram.
+
+    Parameters
+    ----------
+    runs
+        A response for each value of a parameter; an iterator keeps one run at a time.
+    section
+        What is looked at in each: a function of a response that returns numbers, such as one
+        that takes the column of a section.
+    parameter, units
+        Name and unit of the parameter.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Columns ``parameter`` (by its name) and ``value``, a row a point.
+
+    Examples
+    --------
+    >>> import bumpstop as bs
+    >>> def run(gap):
+    ...     basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    ...     wall = bs.RigidStop("wall", node="P", normal=(1, 0, 0), gap=gap, restitution=1.0)
+    ...     thrown = bs.ModalState(velocity=[-1.0])
+    ...     return bs.simulate(bs.Problem(basis, laws=[wall], initial=thrown, duration=0.5))
+    >>> runs = ((gap, run(gap)) for gap in (0.0, 0.1))
+    >>> speeds = lambda response: bs.impact_section(response, "wall").closing_speed
+    >>> bs.bifurcation(runs, speeds, parameter="gap").round(3)
+       gap  value
+    0  0.0  1.000
+    1  0.1  0.778
+    """
+    import pandas as pd
+
+    pairs = runs.items() if isinstance(runs, Mapping) else runs
+    values: list[float] = []
+    points: list[FloatArray] = []
+    for value, response in pairs:
+        found = np.atleast_1d(np.asarray(section(response), dtype=np.float64)).ravel()
+        values += [finite(parameter, value)] * len(found)
+        points.append(found)
+    table = pd.DataFrame({parameter: values, "value": np.concatenate([np.empty(0), *points])})
+    table.attrs["units"] = {parameter: units}
+    return table
+
+
+@dataclass(frozen=True)
+class Periodicity:
+    """Whether a motion repeats itself; see `periodicity`.
+
+    Attributes
+    ----------
+    multiple
+        After how many periods it does; None where it does not within those looked at.
+    distance
+        How far states so many periods apart are from each other at most, relative to the size
+        of the motion; the least of all multiples looked at where there is none.
+    """
+
+    multiple: int | None
+    distance: float
+
+    def __bool__(self) -> bool:
+        return self.multiple is not None
+
+
+def periodicity(
+    response: Response,
+    period: float,
+    *,
+    start: float = 0.0,
+    most: int = 16,
+    tolerance: float = 1e-6,
+) -> Periodicity:
+    """Return after how many periods of the load a motion repeats itself.
+
+    States, all modal displacements times their frequencies and all modal velocities, are
+    compared once a period from ``start`` to the end of the run, at least over twice as many
+    periods as the motion is said to repeat after.
+
+    Parameters
+    ----------
+    response
+        The run.
+    period
+        Of the load, in s.
+    start
+        In s; the transient before it is left out.
+    most
+        Largest multiple of the period to look at.
+    tolerance
+        Largest distance of states, relative to the largest state.
+
+    Raises
+    ------
+    InputError
+        If fewer than two periods lie after the start, or a number cannot be used.
+    """
+    times = _strobes(response, period, 0.0, start)
+    if len(times) < 3:
+        what = "must leave two periods before the end of the run"
+        raise InputError(what, key="start", value=start)
+    states = _states(response, times)
+    size = float(np.abs(states).max())
+    least = np.inf
+    for multiple in range(1, min(count("most", most), (len(times) - 1) // 2) + 1):
+        distance = float(np.abs(states[multiple:] - states[:-multiple]).max())
+        distance = distance / size if size else 0.0
+        least = min(least, distance)
+        if distance <= not_negative("tolerance", tolerance):
+            return Periodicity(multiple, distance)
+    return Periodicity(None, least)
+
+
+def _states(response: Response, times: FloatArray) -> FloatArray:
+    """Return states in units of velocity, (time, 2 N); a rigid mode counts with 1 rad/s."""
+    omega = np.sqrt(np.abs(response.problem.basis.omega2))
+    scale = np.where(omega > 0.0, omega, 1.0)
+    return np.hstack([response.motion(0, times) * scale, response.motion(1, times)])
+
+
+def _strobes(response: Response, period: float, phase: float, start: float) -> FloatArray:
+    step, shift = positive("period", period), finite("phase", phase) % 1.0
+    duration = response.problem.duration
+    first = int(np.ceil(not_negative("start", start) / step - shift - 1e-9))
+    last = int(np.floor(duration / step - shift + 1e-9))
+    if last < first:
+        raise InputError("leaves no instant before the end of the run", key="start", value=start)
+    times = (np.arange(first, last + 1, dtype=np.float64) + shift) * step
+    inside: FloatArray = times.clip(0.0, duration)
+    return inside
