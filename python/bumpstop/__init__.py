@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from bumpstop.loads.line_force import LineForce
     from bumpstop.loads.product import Product
     from bumpstop.loads.random_signal import RandomSignal
+    from bumpstop.loads.support_motion import SupportMotion
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.loads.translation import RigidTranslation
@@ -157,6 +158,7 @@ __all__ = [
     "Structure",
     "SturmCount",
     "Support",
+    "SupportMotion",
     "Sweep",
     "TimeTable",
     "Tube",
@@ -254,6 +256,7 @@ _HOME = {
     "Structure": "structure.structure",
     "SturmCount": "modal.certificate",
     "Support": "structure.support",
+    "SupportMotion": "loads.support_motion",
     "Sweep": "loads.sweep",
     "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",

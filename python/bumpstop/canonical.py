@@ -60,10 +60,22 @@ def canonical_form(problem: Problem) -> CanonicalForm:
     system = _core.System(basis.omega2, *_velocity_terms(basis), basis.circulatory)
     forcing = _forcing(problem)
     # Few obstacles move: what follows them is imported where one does.
-    moved = [(law, getattr(stop, "functions", ())) for law, stop in enumerate(problem.laws)]
+    moved = [
+        (law, (*getattr(stop, "functions", ()), *carried))
+        for law, (stop, carried) in enumerate(zip(problem.laws, _carried(problem), strict=True))
+    ]
     if any(functions for _, functions in moved):
         forcing = _with_motions(forcing, moved, problem.duration)
     return CanonicalForm(system, laws, forcing, displacement, velocity)
+
+
+def _carried(problem: Problem) -> Sequence[Sequence[TimeFunction]]:
+    """Return how obstacles move, law by law, because supports do."""
+    if not problem.supports_move:
+        return [()] * len(problem.laws)
+    from bumpstop.carried import carried_obstacles
+
+    return carried_obstacles(problem)
 
 
 def _forcing(problem: Problem) -> _core.Forcing:
@@ -100,7 +112,7 @@ def _forcing(problem: Problem) -> _core.Forcing:
 
 
 def _with_motions(
-    forcing: _core.Forcing, moved: list[tuple[int, Sequence[TimeFunction]]], duration: float
+    forcing: _core.Forcing, moved: Sequence[tuple[int, Sequence[TimeFunction]]], duration: float
 ) -> _core.Forcing:
     """Return loads with the motions of obstacles, by the numbers of their laws."""
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable, resolved

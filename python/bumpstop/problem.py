@@ -159,6 +159,12 @@ class Problem:
         return times
 
     @property
+    def supports_move(self) -> bool:
+        """Whether some load moves supports."""
+        # By a name that only those have, so that they are not imported where nobody has any.
+        return any(hasattr(load, "travel") for load in self.loads)
+
+    @property
     def remarks(self) -> tuple[str, ...]:
         """What a user should know, a line each: of the basis, the initial state, the loads."""
         return (*self.basis.remarks, *self.initial_remarks, *self.load_remarks)
@@ -221,6 +227,10 @@ class Problem:
                         from bumpstop.loads.time import resolved
 
                         resolved(component.functions, self.duration)
+        if self.supports_move:
+            from bumpstop.carried import check_supports
+
+            check_supports(self)
         for gauge in self.gauges:
             with _at(f"gauges.{gauge.name}"):
                 self.basis.gauge_row(gauge)

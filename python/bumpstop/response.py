@@ -199,10 +199,15 @@ class Response:
         _check_target(quantity, target)
         if quantity in MOTIONS:
             node, dof = map(str, target)
-            row = self.problem.basis.row(node, dof)
-            return along(row, self.motion(MOTIONS.index(quantity), times))
+            row, derivative = self.problem.basis.row(node, dof), MOTIONS.index(quantity)
+            own = along(row, self.motion(derivative, times))
+            if not self.problem.supports_move:
+                return own
+            from bumpstop.carried import carried_node
+
+            return own + carried_node(self.problem, node, dof, self._instants(times), derivative)
         if quantity == "gauge":
-            return along(self._gauge_row(str(target[0])), self.motion(0, times))
+            return self._gauge_strain(str(target[0]), times)
         if quantity == "state":
             return np.array(self._states(str(target[0]), times))
         if quantity == "friction_force":
@@ -422,9 +427,15 @@ class Response:
         forces = self.history.law_forces(self.law_index(law), self._instants(times))
         return forces[:, 1].copy() if forces.shape[1] > 1 else np.zeros(len(forces))
 
-    def _gauge_row(self, gauge: str) -> FloatArray:
+    def _gauge_strain(self, name: str, times: ArrayLike | None) -> FloatArray:
         gauges = {known.name: known for known in self.problem.gauges}
-        return self.problem.basis.gauge_row(gauges[one_of("gauge", gauge, tuple(gauges))])
+        gauge = gauges[one_of("gauge", name, tuple(gauges))]
+        own = along(self.problem.basis.gauge_row(gauge), self.motion(0, times))
+        if not self.problem.supports_move:
+            return own
+        from bumpstop.carried import carried_gauge
+
+        return own + carried_gauge(self.problem, gauge, self._instants(times))
 
     def _mode_index(self, mode: str | SupportsIndex) -> int:
         modes = len(self.problem.basis.labels)

@@ -298,7 +298,7 @@ def test_a_reference_without_a_variant_is_for_all(load: Load) -> None:
             '[loads.push]\ntype = "force"\nnode = "Q"\nforce = [1, 0, 0]',
             "loads.push.node: unknown node (got 'Q')",
         ),
-        ('[loads.push]\nnode = "P"', "loads.push.type: is missing; known: force, gravity"),
+        ('[loads.push]\nnode = "P"', "loads.push.type: is missing; known: force, "),
         ('[masses.b]\nnode = "Q"\nmass = 1', "masses.b.node: unknown node (got 'Q')"),
         ("[nodes.all]", "nodes.all"),
     ],

@@ -306,3 +306,31 @@ def test_random_loads(tmp_path: Path) -> None:
         (tmp_path / "case.toml").write_text(BEAM + wrong)
         with pytest.raises(bs.InputError, match=message):
             bs.load_case(tmp_path / "case.toml")
+
+
+def test_supports_move_in_either_frame(tmp_path: Path) -> None:
+    wave = 'harmonics = [{ frequency = "2 Hz", sine = 1 }]\n'
+    base = f'[base_motion]\ndisplacement = ["3 mm", 0, 0]\n{wave}frame = "absolute"\n'
+    problem = case(tmp_path, f'{base}{STOP}frame = "absolute"\n')
+    moved = bs.BaseMotion(
+        displacement=(3e-3, 0, 0), time=[bs.Harmonic(2.0, sine=1.0)], frame="absolute"
+    )
+    assert problem.loads == (moved,)
+    (wall,) = problem.laws
+    assert isinstance(wall, bs.Stop)
+    assert wall.frame == "absolute"
+    text = f'[loads.foot]\ntype = "support_motion"\nnodes = ["A"]\nacceleration = [1, 0, 0]\n{wave}'
+    (foot,) = case(tmp_path, text).loads
+    assert isinstance(foot, bs.SupportMotion)
+    assert foot.acceleration == (1.0, 0.0, 0.0)
+    for wrong, message in (
+        (text.replace('"A"', '"B"'), r"loads\.foot\.nodes: no support holds its dx"),
+        (text + "displacement = [1, 0, 0]\n", r"loads\.foot\.acceleration: .* not both"),
+        (base.replace("absolute", "moving"), r"base_motion\.frame: is not one of"),
+        (
+            f'{base}{STOP.replace("stiffness = 1e4", "restitution = 0.5")}frame = "absolute"\n',
+            r"stops\.wall\.frame: is of no use to a rigid stop",
+        ),
+    ):
+        with pytest.raises(bs.InputError, match=message):
+            case(tmp_path, wrong)

@@ -144,6 +144,8 @@ def _gauges(response: Response, displacement: FloatArray) -> Iterator[Variable]:
         return
     names = _texts(gauge.name for gauge in gauges)
     strains = np.stack([along(basis.gauge_row(gauge), displacement) for gauge in gauges], axis=1)
+    if response.problem.supports_move:
+        strains = np.stack([response.sample("gauge", gauge.name) for gauge in gauges], axis=1)
     yield Variable("gauge", ("gauge",), names, {"long_name": "name of the gauge"})
     yield Variable("strain", ("time", "gauge"), strains, QUANTITIES["gauge"].attributes)
 
@@ -160,7 +162,10 @@ def _outputs(response: Response, motions: list[FloatArray]) -> Iterator[Variable
                 "dof": dof,
             }
             name = _plain(f"{quantity}_{node}_{dof}")
-            yield Variable(name, ("time",), along(row, motion), attributes)
+            values = along(row, motion)
+            if response.problem.supports_move:
+                values = response.sample(quantity, node, dof)
+            yield Variable(name, ("time",), values, attributes)
 
 
 def _stopped(response: Response) -> list[Dof]:

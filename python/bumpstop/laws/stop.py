@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING
 
-from bumpstop.arguments import FloatArray, Vector, not_negative, positive
+from bumpstop.arguments import FloatArray, Vector, not_negative, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.laws.contact import Contact
 from bumpstop.laws.coordinate import Coordinate, Terms, unit
@@ -63,6 +63,9 @@ class Stop(Contact):
     motion
         How far the obstacle moves along its normal, in m over time: a `Harmonic`, a `Polynomial`,
         a `TimeTable` without jumps, another function of time, or a list of them, which add up.
+    frame
+        Where the obstacle stands while supports move: ``"relative"`` to them, or ``"absolute"``,
+        still on the ground.
     friction
         Coefficient of friction, or ``{"static": ..., "dynamic": ...}``.
     sliding
@@ -93,6 +96,7 @@ class Stop(Contact):
     stiffness: float
     damping: float = 0.0
     motion: TimeFunction | Sequence[TimeFunction] = ()
+    frame: str = "relative"
     friction: float | Mapping[str, float] | Friction | None = None
     sliding: Vector | Terms | None = None
     tangential_stiffness: float | None = None
@@ -104,6 +108,7 @@ class Stop(Contact):
         object.__setattr__(self, "damping", not_negative("damping", self.damping))
         damping = not_negative("tangential_damping", self.tangential_damping)
         object.__setattr__(self, "tangential_damping", damping)
+        one_of("frame", self.frame, ("relative", "absolute"))
         self._check_friction()
         if self.motion != ():
             from bumpstop.loads.time import time_functions

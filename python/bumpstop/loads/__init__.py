@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from bumpstop.loads.line_force import LineForce
     from bumpstop.loads.product import Product
     from bumpstop.loads.random_signal import RandomSignal
+    from bumpstop.loads.support_motion import SupportMotion
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.loads.translation import RigidTranslation
@@ -37,6 +38,7 @@ __all__ = [
     "RigidRotation",
     "RigidTranslation",
     "SpectralDensity",
+    "SupportMotion",
     "Sweep",
     "TimeTable",
     "Turbulence",
@@ -59,6 +61,7 @@ __getattr__ = lazy_names(
         "RigidRotation": "initial",
         "RigidTranslation": "translation",
         "SpectralDensity": "density",
+        "SupportMotion": "support_motion",
         "Sweep": "sweep",
         "TimeTable": "time",
         "Turbulence": "turbulence",

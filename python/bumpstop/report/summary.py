@@ -18,6 +18,7 @@ from bumpstop.loads import (
     RigidTranslation,
     TimeTable,
 )
+from bumpstop.loads.time import time_functions
 from bumpstop.modal.substructure import Assembly
 from bumpstop.report.scales import significant, with_unit
 from bumpstop.structure.sections.rectangle import Rectangle
@@ -246,8 +247,8 @@ def _load(load: Load) -> str:
         what = f"{' and '.join(filter(None, [force, moment]))} at {load.node}"
         return f"{load.name}: {what}{_times(load.functions)}"
     if isinstance(load, BaseMotion):
-        acceleration = _vector(load.acceleration, "m/s²")
-        return f"{load.name}: acceleration of all supports {acceleration}{_times(load.functions)}"
+        functions = load.functions if load.displacement is None else time_functions(load.time)
+        return f"{load.name}: {load.words} of all supports{_times(functions)}"
     words: str = getattr(load, "words", "")
     return f"{load.name}: {words}" if words else load.name
 

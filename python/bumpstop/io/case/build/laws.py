@@ -28,6 +28,7 @@ ELASTIC = (
     "tangential_stiffness",
     "tangential_damping",
     "motion",
+    "frame",
 )
 """What a stop that gives way can have."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bumpstop import loads
 from bumpstop.io.case.keys import keyed
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["BASE_MOTION", "built_loads"]
 
-_CLASSES = {"force": "NodalForce", "line_force": "LineForce"}
+_CLASSES = {"force": "NodalForce", "line_force": "LineForce", "support_motion": "SupportMotion"}
 BASE_MOTION = "base_motion"
 """Table of the motion of the supports, and the name of the load that it makes."""
 
@@ -38,15 +38,19 @@ def _load(name: str, table: LoadTable, folder: Path) -> Load:
             from bumpstop.io.case.build.random import built_turbulence
 
             return built_turbulence(name, table, folder)
-        said = {key: value for key, value in table if key not in {"type", *_time_keys()}}
-        made: Load = getattr(loads, _CLASSES[table.type])(name, **said, time=_time(table, folder))
+        made: Load = getattr(loads, _CLASSES[table.type])(name, **_said(table, folder))
         return made
 
 
 def _base_motion(table: BaseMotionTable, folder: Path) -> Load:
     with keyed(BASE_MOTION):
-        time = _time(table, folder)
-        return loads.BaseMotion(name=BASE_MOTION, acceleration=table.acceleration, time=time)
+        return loads.BaseMotion(name=BASE_MOTION, **_said(table, folder))
+
+
+def _said(table: TimeKeys, folder: Path) -> dict[str, Any]:
+    """Return the arguments that the keys of a table mean."""
+    own = {key: value for key, value in table if key not in {"type", *_time_keys()}}
+    return own | {"time": _time(table, folder)}
 
 
 def _time(table: TimeKeys, folder: Path) -> list[TimeFunction] | None:

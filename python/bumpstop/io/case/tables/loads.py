@@ -14,6 +14,7 @@ from bumpstop.io.case.fields.quantities import (
     PositiveTime,
 )
 from bumpstop.io.case.fields.words import BeamName, Node, choice
+from bumpstop.io.case.tables.base_motion import SupportMotionTable
 from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.table import Field, Kinds, Table
 from bumpstop.io.case.tables.time import TimeKeys
@@ -89,4 +90,7 @@ class TurbulenceTable(Table):
     )
 
 
-LoadTable = Annotated[ForceTable | LineForceTable | GravityTable | TurbulenceTable, Kinds("type")]
+LoadTable = Annotated[
+    ForceTable | LineForceTable | GravityTable | TurbulenceTable | SupportMotionTable,
+    Kinds("type"),
+]

@@ -58,6 +58,11 @@ class StopTable(Table):
         default=None,
         description="How far the obstacle moves along its normal, towards the structure, over time",
     )
+    frame: Annotated[str, choice("relative", "absolute")] | None = Field(
+        default=None,
+        description="Where the obstacle stands while supports move: relative to them, as where "
+        "left out, or absolute, still on the ground",
+    )
     friction: FrictionCoefficients | None = Field(
         default=None,
         description="Coefficient of Coulomb friction, or { static = ..., dynamic = ... }",

@@ -1,0 +1,138 @@
+"""What supports that move do to laws and results: all is carried along."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray
+from bumpstop.errors import InputError
+from bumpstop.loads.moving_supports import MovingSupports
+from bumpstop.loads.support_motion import SupportMotion
+from bumpstop.loads.time import scaled
+from bumpstop.structure.model import StrainModel
+
+if TYPE_CHECKING:
+    from bumpstop.loads.time import TimeFunction
+    from bumpstop.problem import Law, Problem
+    from bumpstop.structure.forms import LinearForm
+    from bumpstop.structure.gauge import Gauge
+
+__all__ = ["carried_gauge", "carried_node", "carried_obstacles", "check_supports"]
+
+_NOTHING = 1e-12
+"""A coordinate that moves less than this, relative to what carries it, stays."""
+
+
+def carried_node(
+    problem: Problem, node: str, dof: str, times: FloatArray, derivative: int
+) -> FloatArray:
+    """Return what supports that move add to the motion of a node, (time,).
+
+    Zero where results are told from the supports.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    node, dof
+        What moves.
+    times
+        In s.
+    derivative
+        0 for displacement, 1 for velocity, 2 for acceleration.
+    """
+    model = problem.basis.model
+    assert model is not None  # without one no load moves supports
+    return _carried(problem, model.displacement_form(node, dof), times, derivative)
+
+
+def carried_gauge(problem: Problem, gauge: Gauge, times: FloatArray) -> FloatArray:
+    """Return the strain of a gauge that supports make as they move apart, (time,)."""
+    model = problem.basis.model
+    assert isinstance(model, StrainModel)  # the problem has checked its gauges
+    return _carried(problem, model.strain_form(gauge), times, 0)
+
+
+def check_supports(problem: Problem) -> None:
+    """Refuse motions of supports that cannot be followed, and frames that do not go together.
+
+    Raises
+    ------
+    InputError
+        If there are such.
+    """
+    carriers = [load for load in problem.loads if isinstance(load, MovingSupports)]
+    if len({load.is_absolute for load in carriers}) > 1:
+        what = "must be the same for all motions of supports"
+        relative = next(load.name for load in carriers if not load.is_absolute)
+        hint = 'take "absolute" where some supports move by themselves'
+        raise InputError(what, key=f"loads.{relative}.frame", value="relative", hint=hint)
+    for load in carriers:
+        if load.is_absolute:
+            _check_travel(load, problem.duration)
+    carried_obstacles(problem)
+
+
+def _check_travel(load: MovingSupports, duration: float) -> None:
+    try:
+        load.travel(duration)
+    except InputError as error:
+        key = f"loads.{load.name}.{error.key}"
+        raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error
+
+
+def _carried(problem: Problem, form: LinearForm, times: FloatArray, derivative: int) -> FloatArray:
+    total = np.zeros(len(times))
+    for load in problem.loads:
+        if isinstance(load, MovingSupports) and load.is_absolute and problem.basis.model:
+            size = float(form.of(load.field(problem.basis.model)))
+            if size != 0.0:
+                total += size * load.travel(problem.duration).at(times, derivative)
+    return total
+
+
+def carried_obstacles(problem: Problem) -> list[tuple[TimeFunction, ...]]:
+    """Return, for each law, how its obstacle moves towards the structure as its modes tell it.
+
+    Raises
+    ------
+    InputError
+        If a law would have to follow supports that is no plain stop.
+    """
+    carriers: list[MovingSupports] = [
+        load for load in problem.loads if isinstance(load, MovingSupports)
+    ]
+    return [tuple(_motions(law, carriers, problem)) for law in problem.laws]
+
+
+def _motions(law: Law, carriers: list[MovingSupports], problem: Problem) -> Iterator[TimeFunction]:
+    model = problem.basis.model
+    still = getattr(law, "frame", "relative") == "absolute"
+    for load in carriers:
+        if model is None or not (still or isinstance(load, SupportMotion)):
+            continue
+        field = load.field(model)
+        normal = float(law.coordinate.nodal_force(model) @ field)
+        sliding = _sliding(law, problem)
+        along = 0.0 if sliding is None else float(sliding @ field)
+        negligible = _NOTHING * float(np.abs(field).max())
+        if abs(along) > negligible or (abs(normal) > negligible and not hasattr(law, "functions")):
+            what = f"cannot follow the supports that {load.name!r} moves; stops without friction do"
+            raise InputError(what, key=f"{law.table}.{law.name}")
+        if abs(normal) > negligible:
+            for function in load.travel(problem.duration).displacement:
+                yield scaled(function, -normal)
+
+
+def _sliding(law: Law, problem: Problem) -> FloatArray | None:
+    """Return a unit force along an obstacle that rubs, (dofs,)."""
+    model = problem.basis.model
+    if getattr(law, "friction", None) is None or model is None:
+        return None
+    from bumpstop.laws.friction import sliding_coordinate
+
+    sliding = sliding_coordinate(problem.basis, law.coordinate, getattr(law, "sliding", None))
+    return sliding.nodal_force(model)
