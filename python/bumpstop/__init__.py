@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from bumpstop.post.recovery import Recovery, recovery
     from bumpstop.post.response_spectrum import response_spectrum
     from bumpstop.post.sampled import sampled_impacts
+    from bumpstop.post.scars import FlatScar, HoleScar, PadScar
     from bumpstop.post.signals import (
         amplitude_spectrum,
         envelope,
@@ -71,6 +72,7 @@ if TYPE_CHECKING:
         spectrogram,
     )
     from bumpstop.post.statistics import ContactStatistics, contact_statistics
+    from bumpstop.post.wear import ArchardWear, EdfWear, KwuEpriWear, WearWork, wear, wear_work
     from bumpstop.problem import Problem
     from bumpstop.report.arrays import plot
     from bumpstop.response import Response
@@ -98,6 +100,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Accelerogram",
     "AllModes",
+    "ArchardWear",
     "Assembly",
     "BaseMotion",
     "Beam",
@@ -111,15 +114,19 @@ __all__ = [
     "ComputationError",
     "ContactStatistics",
     "Convergence",
+    "EdfWear",
     "Expression",
+    "FlatScar",
     "FrequencyResponse",
     "Friction",
     "Gauge",
     "GeneralSection",
     "Gravity",
     "Harmonic",
+    "HoleScar",
     "InputError",
     "Joint",
+    "KwuEpriWear",
     "LineForce",
     "LowestModes",
     "Material",
@@ -129,6 +136,7 @@ __all__ = [
     "ModesAround",
     "ModesInBand",
     "NodalForce",
+    "PadScar",
     "Participation",
     "Periodicity",
     "Placed",
@@ -163,6 +171,7 @@ __all__ = [
     "TimeTable",
     "Tube",
     "Turbulence",
+    "WearWork",
     "amplitude_spectrum",
     "bifurcation",
     "campbell",
@@ -190,12 +199,15 @@ __all__ = [
     "simulate",
     "spectrogram",
     "stroboscopic_section",
+    "wear",
+    "wear_work",
     "write_matrices",
 ]
 
 _HOME = {
     "Accelerogram": "loads.accelerogram",
     "AllModes": "modal.selection",
+    "ArchardWear": "post.wear",
     "Assembly": "modal.substructure.assembly",
     "BaseMotion": "loads.base_motion",
     "Beam": "structure.beam",
@@ -209,15 +221,19 @@ _HOME = {
     "ComputationError": "errors",
     "ContactStatistics": "post.statistics",
     "Convergence": "study.convergence",
+    "EdfWear": "post.wear",
     "Expression": "loads.expression",
+    "FlatScar": "post.scars",
     "FrequencyResponse": "modal.frequency_response",
     "Friction": "laws.friction",
     "Gauge": "structure.gauge",
     "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
     "Harmonic": "loads.time",
+    "HoleScar": "post.scars",
     "InputError": "errors",
     "Joint": "modal.substructure.joint",
+    "KwuEpriWear": "post.wear",
     "LineForce": "loads.line_force",
     "LowestModes": "modal.selection",
     "Material": "structure.material",
@@ -227,6 +243,7 @@ _HOME = {
     "ModesAround": "modal.selection",
     "ModesInBand": "modal.selection",
     "NodalForce": "loads.force",
+    "PadScar": "post.scars",
     "Participation": "modal.masses",
     "Periodicity": "post.poincare",
     "Placed": "modal.substructure.placed",
@@ -261,6 +278,7 @@ _HOME = {
     "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
     "Turbulence": "loads.turbulence",
+    "WearWork": "post.wear",
     "amplitude_spectrum": "post.signals",
     "bifurcation": "post.poincare",
     "campbell": "modal.rotor",
@@ -288,6 +306,8 @@ _HOME = {
     "simulate": "simulate",
     "spectrogram": "post.signals",
     "stroboscopic_section": "post.poincare",
+    "wear": "post.wear",
+    "wear_work": "post.wear",
     "write_matrices": "io.matrices",
 }
 """Where each public name lives."""

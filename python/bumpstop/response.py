@@ -126,6 +126,11 @@ class Response:
         """
         return self.history.seconds
 
+    @cached_property
+    def known_impacts(self) -> dict[int, dict[str, FloatArray]]:
+        """The impacts of those stops that were asked for so far, by their numbers."""
+        return {}
+
     @property
     def energy_residual(self) -> float:
         """Largest imbalance of the energy ledger relative to the largest energy seen.

@@ -16,7 +16,7 @@ from bumpstop.projection import TRANSLATIONS
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["Friction", "sliding_coordinate", "sliding_row"]
+__all__ = ["Friction", "component_row", "sliding_coordinate", "sliding_row"]
 
 ONE_DIRECTION = 1e-9
 """Motions across the only direction that is not theirs, relative to those along it."""
@@ -132,7 +132,7 @@ def _only_direction(basis: ModalBasis, contact: Coordinate) -> Vector:
     if contact.terms is not None:
         hint = "give it, as the distance is, by the weights of dofs"
         raise InputError("must be told where there are terms", key="sliding", hint=hint)
-    shapes = np.array([_component(basis, contact, dof) for dof in TRANSLATIONS])
+    shapes = np.array([component_row(basis, contact, dof) for dof in TRANSLATIONS])
     normal = np.asarray(contact.direction)
     shapes -= np.outer(normal, normal @ shapes)
     directions, sizes, _ = np.linalg.svd(shapes, full_matrices=False)
@@ -146,7 +146,7 @@ def _only_direction(basis: ModalBasis, contact: Coordinate) -> Vector:
     return (x, y, z)
 
 
-def _component(basis: ModalBasis, contact: Coordinate, dof: str) -> FloatArray:
+def component_row(basis: ModalBasis, contact: Coordinate, dof: str) -> FloatArray:
     """Return the motion along one axis; zero where the basis tells none."""
     row = np.zeros(len(basis.omega2))
     for node, sign in ((contact.node, 1.0), (contact.other, -1.0)):

@@ -43,11 +43,17 @@ def impact_table(response: Response) -> Table:
 
 
 def impacts_of(response: Response, stop: int) -> dict[str, FloatArray]:
-    """Return the impacts of one stop, counted from 0, in the order of closing."""
-    core = response.history.impacts(stop)
-    # A stop that is closed from the start closes with the speed -0.0, which is 0.
-    speed = core["closing_speed"] + 0.0
-    return core | {"closing_speed": speed, "duration": core["end"] - core["start"]}
+    """Return the impacts of one stop, counted from 0, in the order of closing.
+
+    They are found once: the search for the peak of a long contact takes its time.
+    """
+    known = response.known_impacts
+    if stop not in known:
+        core = response.history.impacts(stop)
+        # A stop that is closed from the start closes with the speed -0.0, which is 0.
+        speed = core["closing_speed"] + 0.0
+        known[stop] = core | {"closing_speed": speed, "duration": core["end"] - core["start"]}
+    return known[stop]
 
 
 def event_table(response: Response) -> Table:
