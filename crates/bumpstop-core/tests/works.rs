@@ -302,20 +302,16 @@ fn ten_thousand_impacts_leave_rounding() {
         changing: [harmonic, [0.0; 3], table],
         ..driven
     };
-    // Coupled modes take the dense eigenproblem, whose rounding drifts a little more.
-    for (name, parts, most) in [
-        ("undamped", undamped, 1e-11),
-        ("under a load", driven, 1e-11),
-        ("gyroscopic", skew, 5e-11),
-        ("under loads that change", shaken, 1e-11),
+    for (name, parts, duration) in [
+        ("undamped", undamped, 1400.0),
+        ("under a load", driven, 750.0),
+        ("gyroscopic", skew, 750.0),
+        ("under loads that change", shaken, 750.0),
     ] {
-        let history = parts.run(Piece::FREE, Piece::FREE, 1400.0);
-        assert!(
-            history.events().len() > 20_000,
-            "{name}: {}",
-            history.events().len()
-        );
+        let history = parts.run(Piece::FREE, Piece::FREE, duration);
+        let impacts = history.impacts(0).len();
+        assert!(impacts > 10_000, "{name}: {impacts}");
         let residual = history.energy_residual();
-        assert!(residual < most, "{name}: {residual:e}");
+        assert!(residual < 1e-11, "{name}: {residual:e}");
     }
 }

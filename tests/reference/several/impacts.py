@@ -70,6 +70,7 @@ class Contacts:
         self.stops = [number for number, law in laws if law.restitution is not None]
         self.latest = dict.fromkeys(self.stops, 0.0)
         self.tails: list[Tail] = []
+        self.tangled = False  # two come to their end at once: what follows hangs on the order
 
     def _touching(self, states: tuple[str, ...], z: Array, cause: Guard | None) -> list[int]:
         found = []
@@ -96,6 +97,7 @@ class Contacts:
             known[-1].end = max(known[-1].end, end)
         else:
             self.tails.append(Tail(law, time, end))
+        self.tangled |= any(tail.law != law and tail.end >= time for tail in self.tails)
 
     def meet(
         self, states: tuple[str, ...], z: Array, time: float, cause: Guard | None

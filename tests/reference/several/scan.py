@@ -147,13 +147,14 @@ class ScanSolution:
             zero, span, z = self._block(states, z, time, knot - time, begins)
             time = knot if zero is None and time + span >= knot else time + span
             if self.growth > self.largest_growth:
-                self.end = time
-                if zero is not None:  # what it does there is not judged any more
-                    self.contacts.tails.append(Tail(zero.guard.law, time, time))
+                self._end(time, zero)
                 return
             begins = zero is not None
             if zero is not None:
                 states, z = self._switch(states, z, time, zero.guard)
+                if self.contacts.tangled:
+                    self._end(time, zero)
+                    return
                 at_once = at_once + 1 if span == 0.0 else 0
                 if at_once > MOST_AT_ONCE:
                     raise ArithmeticError(f"endless switching at {time}")
@@ -161,6 +162,12 @@ class ScanSolution:
                 _, place, fresh = resets.pop(0)
                 z[self.layout.inner :][place] = fresh
                 begins = True
+
+    def _end(self, time: float, zero: _Zero | None) -> None:
+        """End before the run does; what happens at this instant is not judged any more."""
+        self.end = time
+        if zero is not None:
+            self.contacts.tails.append(Tail(zero.guard.law, time, time))
 
     def _switch(
         self, states: tuple[str, ...], z: Array, time: float, guard: Guard

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -160,6 +161,8 @@ def compare(problem: SeveralStops, judge: Judge | None = None) -> Verdict:
     """Solve with both, up to where perturbations have grown a millionfold."""
     if judge is None:
         judge = ScanSolution(problem, LARGEST_GROWTH)
+    if judge.end == 0.0:
+        return Verdict(0, None, True, 0.0, 0.0, 0.0, judge.growth)
     history = problem.but(duration=judge.end).solve()
     inside, found = inner(judge.events, judge), inner(core_events(history), judge)
     difference = first_difference(inside, found, len(problem.laws), judge.end, judge.tails)
@@ -194,14 +197,20 @@ def apart_from(judge: Judge, times: Array) -> Array:
     return times[kept]
 
 
+def between_events(judge: Judge, end: float) -> Array:
+    """Return the start and the middle of each stretch without events, up to an end."""
+    switches = [0.0, *(event.time for event in judge.events if event.time < end), end]
+    return np.array([0.0, *(0.5 * (a + b) for a, b in pairwise(switches))])
+
+
 def state_errors(judge: Judge, history: "History", times: Array) -> Array:
-    """Return the error of the states at each time, relative to the largest."""
+    """Return the error of the states at each time, relative to the largest up to then."""
     errors = np.zeros(times.size)
     if times.size == 0:
         return errors
-    start = judge.motion(np.zeros(1))
+    largest = judge.motion(between_events(judge, times[-1]))
     for derivative, wanted in enumerate(judge.motion(times)):
-        size = max(np.abs(wanted).max(), np.abs(start[derivative]).max()) or 1.0
+        size = max(np.abs(wanted).max(), np.abs(largest[derivative]).max()) or 1.0
         apart = np.abs(history.motion(times, derivative) - wanted).max(axis=1)
         errors = np.maximum(errors, apart / size)
     return errors
@@ -235,7 +244,8 @@ def event_errors(
                 rows.append(law.coordinates[0][0])
     if not times:
         return np.zeros(0), np.zeros(0)
-    displacement = judge.motion(np.linspace(0.0, horizon, SAMPLES + 1))[0]
+    grid = np.linspace(0.0, horizon, SAMPLES + 1)
+    displacement = judge.motion(np.append(grid, between_events(judge, horizon)))[0]
     reach = (np.abs(displacement).max() or 1.0) * np.abs(rows).sum(axis=1)
     velocity = judge.motion(np.array(times))[1]
     speed = np.abs((velocity * rows).sum(axis=1))
