@@ -55,6 +55,7 @@ def outcome(seed: int, family: str, precise: bool) -> Outcome:
 
     problem = FAMILIES[family](seed)
     try:
+        problem.solve()  # what is refused is not judged
         judge = PreciseSeveral(problem, PRECISE_EVENTS, LARGEST_GROWTH) if precise else None
         verdict = compare(problem, judge)
     except CoreError as error:

@@ -41,9 +41,10 @@ def test_random_problem_of_a_stop_only_just_touched(seed: int) -> None:
     check(random_grazing(seed))
 
 
-@pytest.mark.parametrize("seed", [0, 1, 3, 5, 8, 10, 12, 33, 209, 255])
+@pytest.mark.parametrize("seed", [0, 1, 3, 5, 8, 10, 12, 33, 209, 255, 450])
 def test_random_problem_of_stops_that_rub(seed: int) -> None:
-    # In the last two the accelerations after a jump of the force decide whether it sticks again.
+    # In 209 and 255 the accelerations after a jump of the force decide whether it sticks again,
+    # in 450 two sliders stop at one instant.
     check(random_rubbing(seed))
 
 

@@ -31,15 +31,15 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// Sets the signals for a phase that has just begun; `fired` is the guard that ended the
-    /// phase before, `contacts` are the rigid stops.
+    /// Sets the signals for a phase that has just begun; `fired` are the guards that have reached
+    /// zero at this instant, `contacts` are the rigid stops.
     #[inline(always)]
     pub(crate) fn set<I: Instructions, L: Law>(
         &mut self,
         problem: &Problem<L>,
         phases: &Phases,
         phase: Phase,
-        fired: Option<(usize, Guard)>,
+        fired: &[(usize, Guard)],
         [q, v]: [&[f64]; 2],
         contacts: &Contacts,
     ) {
@@ -67,8 +67,8 @@ impl Watch {
                 let signal = next_signal(&mut self.signals, self.guards.len());
                 let function = &guard.function;
                 signal.set::<I>(phases, phase, &views[first_view..], function, remaining);
-                let before = fired
-                    .filter(|(law, _)| *law == index)
+                let before = (fired.iter())
+                    .find(|(law, _)| *law == index)
                     .map(|(_, fired)| fired);
                 let flat = before.is_some_and(|fired| function.rises_with(&fired.function));
                 if flat {
@@ -119,7 +119,7 @@ impl Watch {
         problem: &Problem<L>,
         phases: &Phases,
         phase: Phase,
-        fired: Option<(usize, Guard)>,
+        fired: &[(usize, Guard)],
     ) {
         let spectrum = &phases.spectra[phase.spectrum];
         let states = phases.states(phase);
@@ -139,7 +139,7 @@ impl Watch {
                 let which = [index, number, law.rows().len()];
                 let curved = Curved::new(which, phases, phase, views, remaining);
                 let start = curved.at(&Guards { problem, states }, phases, phase, &at);
-                let has_fired = fired.is_some_and(|(law, _)| law == index);
+                let has_fired = fired.iter().any(|(law, _)| *law == index);
                 let zero = if has_fired { JUST_FIRED } else { 1.0 } * start.rest[0];
                 self.starts.push(if start.value > zero {
                     Start::Positive

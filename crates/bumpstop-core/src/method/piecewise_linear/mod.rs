@@ -114,6 +114,8 @@ struct Scratch {
     watch: Watch,
     work: Workspace,
     bench: Workbench,
+    /// The laws that have switched at the present instant, each with the guard that was zero.
+    fired: Vec<(usize, Guard)>,
     /// Where in its table each load stands.
     places: Vec<usize>,
 }
@@ -155,7 +157,7 @@ impl<'a, L: Law> Run<'a, L> {
         let mut states = self.start(&q, &mut v)?;
         let mut time = 0.0;
         self.scratch.walk.start(problem.duration);
-        let mut fired: Option<(usize, Guard)> = None;
+        self.scratch.fired.clear();
         let mut at_once = 0;
         loop {
             if (self.phases.list.len()).is_multiple_of(PHASES_BETWEEN_OBSERVATIONS) {
@@ -168,7 +170,7 @@ impl<'a, L: Law> Run<'a, L> {
                 problem,
                 &self.phases,
                 phase,
-                fired,
+                &self.scratch.fired,
                 [&q, &v],
                 &self.contacts,
             );
@@ -197,32 +199,33 @@ impl<'a, L: Law> Run<'a, L> {
                 }
                 self.phases
                     .motion::<I>(phase, limit, &mut self.scratch.work, &mut q, &mut v);
-                (time, fired, at_once) = (knot, None, 0);
+                (time, at_once) = (knot, 0);
+                self.scratch.fired.clear();
                 if !self.contacts.is_empty() {
                     (self.contacts).see_phase(problem, &self.scratch.watch, limit);
                     self.meet(Cause::Other, time, &q, &mut v, &mut states)?;
                 }
                 continue;
             };
-            at_once = if time + crossing.time > time {
-                0
-            } else {
-                at_once + 1
-            };
+            let goes_on = time + crossing.time > time;
+            at_once = if goes_on { 0 } else { at_once + 1 };
             if at_once > MOST_SWITCHES_AT_ONCE * problem.laws.len() {
                 return Err(Error::EndlessSwitching { time });
             }
             self.phases
                 .motion::<I>(phase, crossing.time, &mut self.scratch.work, &mut q, &mut v);
             time += crossing.time;
-            fired = None;
             let cause = self.cause(crossing);
+            if goes_on || cause != Cause::Other {
+                self.scratch.fired.clear();
+            }
             if cause == Cause::Other {
                 let watch = &self.scratch.watch;
                 let (event, guard) =
                     event::event_of(problem, &self.phases, phase, watch, crossing, [&q, &v]);
                 states[event.law] = event.after;
-                fired = Some((event.law, guard));
+                self.scratch.fired.retain(|(law, _)| *law != event.law);
+                self.scratch.fired.push((event.law, guard));
                 self.events.push(event);
             }
             if !self.contacts.is_empty() {
