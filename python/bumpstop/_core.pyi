@@ -150,7 +150,14 @@ class Spring:
     ) -> None:
         """Take the stiffness of each segment between breaks, and the force at the origin."""
 
-Law = Stop | RigidStop | FrictionStop | Spring
+class HertzStop:
+    """A stop at distance ``d = gap + row . q`` whose force is a power of its depth."""
+
+    def __init__(
+        self, row: Array, gap: float, stiffness: float, exponent: float, hunt_crossley: float
+    ) -> None: ...
+
+Law = Stop | RigidStop | FrictionStop | Spring | HertzStop
 
 class History:
     """What a run leaves behind; it can be sampled anywhere in [0, duration]."""
@@ -166,7 +173,7 @@ class History:
     def motion_error(self) -> float | None:
         """Bound at the laws, in m, of how far any phase is from the solution of its equations.
 
-        ``None`` for fixed steps, infinite where there is no bound.
+        ``None`` for methods with steps, infinite where there is no bound.
         """
     @property
     def missed_penetration(self) -> float | None:
@@ -214,12 +221,14 @@ def simulate(
     method: str,
     dt: float | None = None,
     beyond_stability_limit: bool = False,
+    tolerances: tuple[float, float | None] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> History:
     """Integrate; releases the GIL.
 
-    ``method`` is ``exact``, ``symplectic_euler`` or ``central_difference``; the fixed-step
-    ones need ``dt``. ``progress`` is called with the fraction done, about ten times a second.
+    ``method`` is ``exact``, ``symplectic_euler`` or ``central_difference``, which need ``dt``, or
+    ``rk32``, ``rk54`` or ``dop853``, which need ``tolerances``, the relative and the absolute one.
+    ``progress`` is called with the fraction done, about ten times a second.
     """
 
 def stability_limit(system: System, laws: Sequence[Law], method: str) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from bumpstop import _core
-from bumpstop.arguments import did_you_mean, one_of, positive
+from bumpstop.arguments import did_you_mean, finite, not_negative, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import ComputationError, InputError
 from bumpstop.problem import Problem
@@ -16,16 +16,22 @@ from bumpstop.response import Response
 __all__ = ["METHODS", "simulate"]
 
 FIXED_STEP_METHODS = ("symplectic_euler", "central_difference")
-METHODS = ("auto", "exact", *FIXED_STEP_METHODS)
+ADAPTIVE_METHODS = ("rk32", "rk54", "dop853")
+METHODS = ("auto", "exact", *FIXED_STEP_METHODS, *ADAPTIVE_METHODS)
 OPTIONS: dict[str, tuple[str, ...]] = {
     "exact": (),
     **dict.fromkeys(FIXED_STEP_METHODS, ("dt", "beyond_stability_limit")),
+    **dict.fromkeys(ADAPTIVE_METHODS, ("rtol", "atol")),
 }
 """What each method can be told."""
 LARGEST_RECORD = 4 * 2**30
 """Memory in bytes that the core gives to the steps of a run."""
 LANES = 8
 """The core keeps the modes of a step in blocks of so many."""
+RTOL = 1e-8
+"""Relative tolerance of the adaptive methods where none is given."""
+FINEST_RTOL = 1e-14
+"""The finest relative tolerance: rounding rules below it."""
 MOST_ENERGY = 1e200
 """Twice the energy, in J, above which products of motions leave the range of numbers."""
 
@@ -36,6 +42,8 @@ def simulate(
     *,
     dt: float | None = None,
     beyond_stability_limit: bool = False,
+    rtol: float | None = None,
+    atol: float | None = None,
     progress: Callable[[float], None] | None = None,
     **unknown: object,
 ) -> Response:
@@ -47,12 +55,21 @@ def simulate(
         What to simulate.
     method
         ``"exact"`` solves each phase between two contacts in closed form; ``"auto"`` takes it
-        wherever it applies. ``"symplectic_euler"`` (order 1) and ``"central_difference"``
-        (order 2) march in equal steps.
+        wherever it applies, and ``"dop853"`` where a law is smooth. ``"rk32"``, ``"rk54"`` and
+        ``"dop853"`` are Runge-Kutta pairs of order 3, 5 and 8 whose steps follow a tolerance;
+        they locate every switch of a law. ``"symplectic_euler"`` (order 1) and
+        ``"central_difference"`` (order 2) march in equal steps.
     dt
         Step in s of the fixed-step methods.
     beyond_stability_limit
         Allow a step above the method's stability limit.
+    rtol
+        Relative tolerance of the adaptive methods, 1e-8 where left out: the error of a step in
+        each modal displacement and velocity over the largest that it has been so far.
+    atol
+        Absolute tolerance of the adaptive methods, in the units of the modal displacements and of
+        their rates; where left out, displacements, or velocities, below a thousandth of the
+        largest among them are measured by that.
     progress
         Called with the fraction done, between 0 and 1, about ten times a second.
     unknown
@@ -88,10 +105,13 @@ def simulate(
         hint = "of a case, take one of its problems"
         raise InputError("must be a Problem", key="problem", value=problem, hint=hint)
     one_of("method", method, METHODS)
-    chosen, reason = _choose(method)
-    _check_options(chosen, unknown, dt=dt, beyond_stability_limit=beyond_stability_limit or None)
+    chosen, reason = _choose(method, problem)
+    beyond = beyond_stability_limit or None
+    _check_options(chosen, unknown, dt=dt, beyond_stability_limit=beyond, rtol=rtol, atol=atol)
     _refuse_coupled_modes(chosen, problem)
     _refuse_rigid_stops(chosen, problem)
+    _refuse_smooth_laws(chosen, problem)
+    tolerances = _checked_tolerances(chosen, rtol, atol)
     model = _model(chosen, problem)
     step = _checked_step(chosen, dt, problem.duration, model, beyond_stability_limit)
     try:
@@ -105,12 +125,15 @@ def simulate(
             chosen,
             step,
             beyond_stability_limit,
+            tolerances,
             progress,
         )
     except _core.CoreError as error:
         _blame_scale(chosen, problem, error)
         raise ComputationError(f"the {chosen} method could not finish: {error}") from error
     options = {} if step is None else {"dt": step}
+    if tolerances is not None:
+        options = {"rtol": tolerances[0]} | ({} if atol is None else {"atol": atol})
     return Response(problem, history, times=problem.times, method_reason=reason, options=options)
 
 
@@ -125,10 +148,14 @@ def _blame_scale(method: str, problem: Problem, error: Exception) -> None:
         raise blamed from error
 
 
-def _choose(method: str) -> tuple[str, str]:
-    if method == "auto":
-        return "exact", "all laws are piecewise linear"
-    return method, "asked for"
+def _choose(method: str, problem: Problem) -> tuple[str, str]:
+    """Return the method to take, and why."""
+    if method != "auto":
+        return method, "asked for"
+    for law in problem.laws:
+        if is_smooth(law):
+            return "dop853", f"{law.name!r} is not piecewise linear: {law.smooth}"
+    return "exact", "all laws are piecewise linear"
 
 
 def _check_options(method: str, unknown: dict[str, object], **known: object) -> None:
@@ -160,7 +187,7 @@ def _refuse_coupled_modes(method: str, problem: Problem) -> None:
 
 def _refuse_rigid_stops(method: str, problem: Problem) -> None:
     """Raise for a scheme that goes by forces where speeds jump."""
-    if method in FIXED_STEP_METHODS:
+    if method != "exact":
         for law in problem.laws:
             if hasattr(law, "restitution"):
                 raise InputError(
@@ -169,6 +196,33 @@ def _refuse_rigid_stops(method: str, problem: Problem) -> None:
                     value=method,
                     hint="the exact method does",
                 )
+
+
+def _refuse_smooth_laws(method: str, problem: Problem) -> None:
+    """Raise for a method that goes by the matrices of laws where one has none."""
+    if method in ADAPTIVE_METHODS:
+        return
+    for law in problem.laws:
+        if is_smooth(law):
+            raise InputError(
+                f"does not take {law.name!r}: {law.smooth}",
+                key="method",
+                value=method,
+                hint=f"{', '.join(ADAPTIVE_METHODS)} do",
+            )
+
+
+def _checked_tolerances(
+    method: str, rtol: float | None, atol: float | None
+) -> tuple[float, float | None] | None:
+    if method not in ADAPTIVE_METHODS:
+        return None
+    relative = RTOL if rtol is None else finite("rtol", rtol)
+    if not FINEST_RTOL <= relative < 1.0:
+        what = f"must be from {FINEST_RTOL:g} to below 1"
+        hint = "finer ones are lost in rounding"
+        raise InputError(what, key="rtol", value=rtol, hint=hint)
+    return relative, None if atol is None else not_negative("atol", atol)
 
 
 def _model(method: str, problem: Problem) -> CanonicalForm:

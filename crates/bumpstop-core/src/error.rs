@@ -185,6 +185,42 @@ pub enum Error {
         /// Memory that the run would need.
         gibibytes: f64,
     },
+    /// A relative tolerance out of its range.
+    #[error("the relative tolerance must be from {finest:e} to below 1 (got {value})")]
+    Tolerance {
+        /// Its value.
+        value: f64,
+        /// The finest there is.
+        finest: f64,
+    },
+    /// Step control came down to rounding.
+    #[error(
+        "no step from t = {time:e} s on is small enough for the tolerance (the last tried is {step:.1e} s): a force grows beyond bounds or jumps where no law says so"
+    )]
+    SmallStep {
+        /// Instant reached, in s.
+        time: f64,
+        /// The step, in s.
+        step: f64,
+    },
+    /// The steps of an adaptive run do not fit in memory.
+    #[error(
+        "the steps up to t = {time:e} s fill the 4 GiB that a run may take; take a larger tolerance or a shorter run"
+    )]
+    LongRecord {
+        /// Instant reached, in s.
+        time: f64,
+    },
+    /// A method for linear states was given a law that has others.
+    #[error(
+        "the {method} method takes piecewise-linear laws alone, and law {law} (counted from 0) is none; an adaptive method takes it"
+    )]
+    Smooth {
+        /// The method.
+        method: &'static str,
+        /// The law.
+        law: usize,
+    },
     /// The motion left the range of floating-point numbers.
     #[error("the motion grew beyond all bounds at t = {time:e} s")]
     Overflow {

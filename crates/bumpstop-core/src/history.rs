@@ -5,6 +5,7 @@ use crate::energy::{self, Ledger};
 use crate::error::{Error, Result, check_length};
 use crate::impacts::{Impact, Sample};
 use crate::law::{Law, Local, State, project};
+use crate::method::adaptive::AdaptiveRecord;
 use crate::method::fixed_step::StepRecord;
 use crate::method::piecewise_linear::PhaseRecord;
 use crate::problem::Problem;
@@ -42,6 +43,7 @@ pub enum Derivative {
 enum Record {
     Steps(StepRecord),
     Phases(PhaseRecord),
+    Adaptive(AdaptiveRecord),
 }
 
 /// The result of a run. It can be sampled anywhere in `[0, duration]`; at a switch the values
@@ -72,6 +74,15 @@ impl<L: Law> History<L> {
         events: Vec<Event>,
     ) -> Self {
         Self::new(problem, method, Record::Phases(record), events)
+    }
+
+    pub(crate) fn of_adaptive(
+        problem: &Arc<Problem<L>>,
+        method: &'static str,
+        record: AdaptiveRecord,
+        events: Vec<Event>,
+    ) -> Self {
+        Self::new(problem, method, Record::Adaptive(record), events)
     }
 
     fn new(
@@ -109,24 +120,25 @@ impl<L: Law> History<L> {
         match &self.record {
             Record::Steps(record) => record.steps,
             Record::Phases(record) => record.cells(),
+            Record::Adaptive(record) => record.steps(),
         }
     }
 
     /// The deepest penetration that the exact method could have missed, in m: its bound on its
-    /// own rounding. `None` for fixed steps, which certify nothing.
+    /// own rounding. `None` for methods with steps, whose error is larger than that.
     pub fn missed_penetration(&self) -> Option<f64> {
         match &self.record {
-            Record::Steps(_) => None,
+            Record::Steps(_) | Record::Adaptive(_) => None,
             Record::Phases(record) => Some(record.missed_penetration()),
         }
     }
 
     /// A bound, in the laws' local coordinates, of how far the exact method's motion of any phase
     /// is from the solution of its equations that starts where the phase before ends. `None` for
-    /// fixed steps.
+    /// methods with steps.
     pub fn motion_error(&self) -> Option<f64> {
         match &self.record {
-            Record::Steps(_) => None,
+            Record::Steps(_) | Record::Adaptive(_) => None,
             Record::Phases(record) => Some(record.motion_error(&self.problem)),
         }
     }
@@ -136,6 +148,7 @@ impl<L: Law> History<L> {
         let modes = self.problem.system.modes();
         match &self.record {
             Record::Phases(record) => record.visit(times, modes, &mut see),
+            Record::Adaptive(record) => record.visit(times, see),
             Record::Steps(record) => {
                 let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
                 for &time in times {
@@ -264,6 +277,7 @@ impl<L: Law> History<L> {
                 (times.iter().map(|t| interpolate(ledgers, t / record.dt))).collect()
             }
             Record::Phases(record) => record.ledgers(&self.problem, times),
+            Record::Adaptive(record) => record.ledgers(&self.problem, times),
         })
     }
 
@@ -272,6 +286,7 @@ impl<L: Law> History<L> {
         match &self.record {
             Record::Steps(record) => energy::residual(self.step_ledgers(record).iter()),
             Record::Phases(record) => record.energy_residual(&self.problem),
+            Record::Adaptive(record) => record.energy_residual(&self.problem),
         }
     }
 
@@ -285,6 +300,7 @@ impl<L: Law> History<L> {
                 crate::impacts::from_samples(&self.law_samples(law, &times))
             }
             Record::Phases(record) => record.impacts(&self.problem, law),
+            Record::Adaptive(record) => record.impacts(&self.problem, law),
         }
     }
 
@@ -395,7 +411,7 @@ impl Powers {
             laws: laws()
                 .map(|(law, state)| {
                     let (position, velocity) = (project(law, q), project(law, v));
-                    law.dissipation(*state).at(&position, &velocity)
+                    law.dissipated_power(*state, &position, &velocity)
                 })
                 .collect(),
             stored: laws()

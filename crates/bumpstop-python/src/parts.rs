@@ -196,6 +196,26 @@ impl RigidStop {
     }
 }
 
+/// An obstacle at distance `d = gap + row . q` whose force is a power of the depth.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct HertzStop(pub law::HertzStop);
+
+#[pymethods]
+impl HertzStop {
+    #[new]
+    fn new(
+        row: PyReadonlyArray1<f64>,
+        gap: f64,
+        stiffness: f64,
+        exponent: f64,
+        hunt_crossley: f64,
+    ) -> PyResult<Self> {
+        law::HertzStop::new(values(&row), gap, stiffness, exponent, hunt_crossley)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
 /// A law of any kind, as Python hands it over.
 #[derive(FromPyObject)]
 pub enum LawPart<'py> {
@@ -203,6 +223,7 @@ pub enum LawPart<'py> {
     FrictionStop(PyRef<'py, FrictionStop>),
     Spring(PyRef<'py, Spring>),
     RigidStop(PyRef<'py, RigidStop>),
+    HertzStop(PyRef<'py, HertzStop>),
 }
 
 impl LawPart<'_> {
@@ -213,6 +234,7 @@ impl LawPart<'_> {
             Self::FrictionStop(law) => law.0.clone().into(),
             Self::Spring(law) => law.0.clone().into(),
             Self::RigidStop(law) => law.0.clone().into(),
+            Self::HertzStop(law) => law.0.clone().into(),
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::core_error;
 use crate::history::History;
 use crate::parts::{Forcing, LawPart, System, values};
 use bumpstop_core::error::Error;
+use bumpstop_core::method::adaptive::{PairName, Tolerances};
 use bumpstop_core::method::fixed_step::Step;
 use bumpstop_core::method::{self, Method, central_difference, symplectic_euler};
 use bumpstop_core::problem::Problem;
@@ -19,7 +20,7 @@ const BETWEEN_REPORTS: Duration = Duration::from_millis(100);
 /// Integrates a problem; releases the GIL.
 #[pyfunction]
 #[pyo3(signature = (system, laws, forcing, displacement, velocity, duration, method, dt=None,
-                    beyond_stability_limit=false, progress=None))]
+                    beyond_stability_limit=false, tolerances=None, progress=None))]
 #[allow(clippy::too_many_arguments)] // mirrors the Python signature
 pub fn simulate(
     py: Python<'_>,
@@ -32,9 +33,10 @@ pub fn simulate(
     method: &str,
     dt: Option<f64>,
     beyond_stability_limit: bool,
+    tolerances: Option<(f64, Option<f64>)>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<History> {
-    let method = method_named(method, dt, beyond_stability_limit)?;
+    let method = method_named(method, dt, beyond_stability_limit, tolerances)?;
     let problem = Problem::new(
         system.0.clone(),
         laws.iter().map(LawPart::law).collect(),
@@ -71,7 +73,12 @@ pub fn stability_limit(system: &System, laws: Vec<LawPart<'_>>, method: &str) ->
     }
 }
 
-fn method_named(name: &str, dt: Option<f64>, beyond_stability_limit: bool) -> PyResult<Method> {
+fn method_named(
+    name: &str,
+    dt: Option<f64>,
+    beyond_stability_limit: bool,
+    tolerances: Option<(f64, Option<f64>)>,
+) -> PyResult<Method> {
     let step = || {
         dt.map(|dt| Step {
             dt,
@@ -79,6 +86,12 @@ fn method_named(name: &str, dt: Option<f64>, beyond_stability_limit: bool) -> Py
         })
         .ok_or_else(|| PyValueError::new_err(format!("method '{name}' needs dt")))
     };
+    let adaptive = PairName::ALL.into_iter().find(|pair| pair.name() == name);
+    if let Some(pair) = adaptive {
+        let (relative, absolute) = tolerances
+            .ok_or_else(|| PyValueError::new_err(format!("method '{name}' needs tolerances")))?;
+        return Ok(Method::Adaptive(pair, Tolerances { relative, absolute }));
+    }
     match name {
         "exact" => Ok(Method::Exact),
         symplectic_euler::NAME => Ok(Method::SymplecticEuler(step()?)),

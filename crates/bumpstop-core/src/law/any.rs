@@ -1,7 +1,7 @@
 //! Any of the laws, so that a problem can have several kinds.
 
 use super::{
-    Constraint, FrictionStop, Guard, Law, Local, LocalMotion, Piece, Power, RigidStop, Spring,
+    Constraint, FrictionStop, Guard, HertzStop, Law, Local, LocalMotion, Piece, Power, RigidStop, Spring,
     State, Stop,
 };
 use crate::number::Number;
@@ -18,6 +18,8 @@ pub enum AnyLaw {
     Spring(Spring),
     /// An obstacle that does not give way.
     RigidStop(RigidStop),
+    /// An obstacle whose force is a power of the depth.
+    HertzStop(HertzStop),
 }
 
 impl From<Stop> for AnyLaw {
@@ -44,6 +46,12 @@ impl From<RigidStop> for AnyLaw {
     }
 }
 
+impl From<HertzStop> for AnyLaw {
+    fn from(stop: HertzStop) -> Self {
+        Self::HertzStop(stop)
+    }
+}
+
 /// Asks the law inside.
 macro_rules! ask {
     ($self:ident, $law:ident => $answer:expr) => {
@@ -52,6 +60,7 @@ macro_rules! ask {
             Self::FrictionStop($law) => $answer,
             Self::Spring($law) => $answer,
             Self::RigidStop($law) => $answer,
+            Self::HertzStop($law) => $answer,
         }
     };
 }
@@ -91,6 +100,18 @@ impl Law for AnyLaw {
             Self::Stop(law) => Some(law),
             _ => None,
         }
+    }
+
+    fn is_piecewise_linear(&self) -> bool {
+        ask!(self, law => law.is_piecewise_linear())
+    }
+
+    fn flows(&self) -> bool {
+        ask!(self, law => law.flows())
+    }
+
+    fn memory_rates(&self, state: State, position: &Local<f64>, velocity: &Local<f64>) -> [f64; 2] {
+        ask!(self, law => law.memory_rates(state, position, velocity))
     }
 
     fn piece(&self, state: State) -> Option<Piece> {
@@ -150,6 +171,16 @@ impl Law for AnyLaw {
 
     fn dissipation(&self, state: State) -> Power {
         ask!(self, law => law.dissipation(state))
+    }
+
+    #[inline(always)]
+    fn dissipated_power<T: Number>(
+        &self,
+        state: State,
+        position: &Local<T>,
+        velocity: &Local<T>,
+    ) -> T {
+        ask!(self, law => law.dissipated_power(state, position, velocity))
     }
 
     fn switch_loss(&self, before: State, after: State, position: &Local<f64>) -> f64 {

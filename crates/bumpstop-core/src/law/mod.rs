@@ -4,11 +4,13 @@
 //! displacements. In each of its states it says its force, its stored energy, what it
 //! dissipates, and its guards: functions that stay positive while the state lasts. A state may
 //! declare itself piecewise linear by handing over a [`Piece`]; the exact method needs nothing
-//! else.
+//! else. A law with smooth states says that it has some, and the adaptive methods take it; its
+//! memory may follow rate equations, as plasticity and dampers in a row with springs do.
 
 mod affine;
 mod any;
 mod friction_stop;
+mod hertz_stop;
 mod rigid_stop;
 mod spring;
 mod state;
@@ -17,6 +19,7 @@ mod stop;
 pub use affine::{Affine, Power};
 pub use any::AnyLaw;
 pub use friction_stop::{Friction, FrictionStop};
+pub use hertz_stop::HertzStop;
 pub use rigid_stop::RigidStop;
 pub use spring::Spring;
 pub use state::{LocalMotion, State};
@@ -140,6 +143,27 @@ pub trait Law: Clone + Send + Sync {
         None
     }
 
+    /// Whether every state is linear, so that the exact method takes the law.
+    fn is_piecewise_linear(&self) -> bool {
+        true
+    }
+
+    /// Whether the memory of states follows rate equations. States are then handed to the law with
+    /// the memory of the instant; guards are to depend on none of it.
+    fn flows(&self) -> bool {
+        false
+    }
+
+    /// The rates of a memory that flows, per s.
+    fn memory_rates(
+        &self,
+        _state: State,
+        _position: &Local<f64>,
+        _velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        [0.0; 2]
+    }
+
     /// The state's matrices where it is linear.
     fn piece(&self, state: State) -> Option<Piece>;
 
@@ -196,8 +220,21 @@ pub trait Law: Clone + Send + Sync {
     /// Energy stored, in J.
     fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T;
 
-    /// Power dissipated, in W.
-    fn dissipation(&self, state: State) -> Power;
+    /// Power dissipated in a linear state, in W; smooth ones have [`Law::dissipated_power`].
+    fn dissipation(&self, _state: State) -> Power {
+        Power::NONE
+    }
+
+    /// Power dissipated in any state, in W.
+    #[inline(always)]
+    fn dissipated_power<T: Number>(
+        &self,
+        state: State,
+        position: &Local<T>,
+        velocity: &Local<T>,
+    ) -> T {
+        self.dissipation(state).at(position, velocity)
+    }
 
     /// Energy dissipated at the instant of a switch, in J.
     fn switch_loss(&self, before: State, after: State, position: &Local<f64>) -> f64;
@@ -208,7 +245,7 @@ pub trait Law: Clone + Send + Sync {
     /// Whether a state counts as contact in the table of impacts.
     fn in_contact(&self, state: State) -> bool;
 
-    /// The stiffest linear state, for the stability limits of explicit schemes.
+    /// The stiffest linear state, for the stability limits of fixed-step schemes.
     fn stiffest(&self) -> Piece;
 }
 

@@ -7,12 +7,12 @@
 //! that leaves the unit circle first passes -1 where `omega^2 dt^2 + 4 c_law dt = 4`.
 //! Source: T. J. R. Hughes, The Finite Element Method, 1987, section 9.1.
 
-use super::Observer;
 use super::fixed_step::{
     ChangingLoads, Count, March, Modal, Setting, Step, StepRecord, VelocityRule, check_forces,
     check_step, check_still, check_uncoupled, coupling, highest_frequency, in_lanes, law_force,
     laws_damping, modal, pushed, run,
 };
+use super::{Observer, check_linear};
 use crate::error::Result;
 use crate::history::History;
 use crate::law::{COORDINATES, Law, Local, Stop, project};
@@ -43,6 +43,7 @@ pub fn simulate<L: Law>(
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Central)?;
     check_uncoupled(NAME, &problem.system)?;
     check_forces(NAME, &problem.laws)?;
+    check_linear(NAME, &problem.laws)?;
     check_still(NAME, &problem.forcing)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = CentralDifference {

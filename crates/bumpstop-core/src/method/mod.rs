@@ -1,7 +1,9 @@
 //! Methods: how a problem is carried through time. One file a method.
 
+pub mod adaptive;
 pub mod central_difference;
 pub mod fixed_step;
+pub(crate) mod instant;
 pub mod piecewise_linear;
 pub mod symplectic_euler;
 
@@ -20,6 +22,8 @@ pub enum Method {
     SymplecticEuler(fixed_step::Step),
     /// Central difference, second order.
     CentralDifference(fixed_step::Step),
+    /// A Runge-Kutta pair with step control and located switches.
+    Adaptive(adaptive::PairName, adaptive::Tolerances),
 }
 
 impl Method {
@@ -29,6 +33,7 @@ impl Method {
             Self::Exact => "exact",
             Self::SymplecticEuler(_) => "symplectic_euler",
             Self::CentralDifference(_) => "central_difference",
+            Self::Adaptive(pair, _) => pair.name(),
         }
     }
 }
@@ -49,6 +54,17 @@ pub fn simulate<L: Law>(
         Method::Exact => piecewise_linear::simulate(problem, observer),
         Method::SymplecticEuler(step) => symplectic_euler::simulate(problem, step, observer),
         Method::CentralDifference(step) => central_difference::simulate(problem, step, observer),
+        Method::Adaptive(pair, tolerances) => {
+            adaptive::simulate(problem, pair, tolerances, observer)
+        }
+    }
+}
+
+/// Refuses laws with smooth states, for methods that go by matrices.
+pub(crate) fn check_linear<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
+    match laws.iter().position(|law| !law.is_piecewise_linear()) {
+        Some(law) => Err(Error::Smooth { method, law }),
+        None => Ok(()),
     }
 }
 

@@ -5,12 +5,12 @@
 //! amplification matrix. Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical
 //! Integration, 2nd edition, 2006, section I.1.2.
 
-use super::Observer;
 use super::fixed_step::{
     ChangingLoads, Count, March, Modal, Setting, Step, StepRecord, VelocityRule, check_forces,
     check_step, check_still, check_uncoupled, coupling, highest_frequency, in_lanes, law_force,
     laws_damping, modal, pushed, run,
 };
+use super::{Observer, check_linear};
 use crate::error::Result;
 use crate::history::History;
 use crate::law::{COORDINATES, Law, Local, Stop, project};
@@ -42,6 +42,7 @@ pub fn simulate<L: Law>(
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Backward)?;
     check_uncoupled(NAME, &problem.system)?;
     check_forces(NAME, &problem.laws)?;
+    check_linear(NAME, &problem.laws)?;
     check_still(NAME, &problem.forcing)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = SymplecticEuler {

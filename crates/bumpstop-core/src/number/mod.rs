@@ -47,6 +47,8 @@ pub trait Number:
     fn exp(self) -> Self;
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
+    /// A power of a number that is not negative. No hot loop asks for it.
+    fn power(self, exponent: f64) -> Self;
     /// `yes` where `self < other`, else `no`.
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self;
 }
@@ -93,6 +95,10 @@ impl Number for f64 {
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         elementary::sin_cos(self)
+    }
+    fn power(self, exponent: f64) -> Self {
+        // Not the platform's, so that the bits are the same everywhere.
+        libm::pow(self, exponent)
     }
     #[inline(always)]
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self {

@@ -279,6 +279,32 @@ impl Number for Enclosure {
         (of([sin, cos, -sin]), of([cos, -sin, -cos]))
     }
 
+    fn power(self, exponent: f64) -> Self {
+        let (low, high) = self.range();
+        let value = self.jet.value.power(exponent);
+        if low <= 0.0 {
+            return Self::unbounded(value, self.radius);
+        }
+        let factors = [
+            exponent,
+            exponent * (exponent - 1.0),
+            exponent * (exponent - 1.0) * (exponent - 2.0),
+        ];
+        // Powers of a positive number rise or fall all the way.
+        let largest = |order: usize| {
+            let power = exponent - (order + 1) as f64;
+            factors[order].abs() * low.power(power).max(high.power(power))
+        };
+        self.compose(
+            [
+                value,
+                factors[0] * self.jet.value.power(exponent - 1.0),
+                factors[1] * self.jet.value.power(exponent - 2.0),
+            ],
+            std::array::from_fn(largest),
+        )
+    }
+
     /// Where the two cannot be told apart on the whole cell nothing is known but the value, and
     /// the walk takes a smaller one.
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self {
@@ -353,6 +379,7 @@ mod tests {
             sin * y.sub_mul(cos, x),
             x.abs() + y.max(T::of(-0.3)),
             -(x.mul_add(y, distance)),
+            distance.power(1.5) * x,
         ]
     }
 

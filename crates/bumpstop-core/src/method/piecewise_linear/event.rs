@@ -4,12 +4,12 @@
 use super::advance::{Crossing, Start};
 use super::curved::{Curved, Guards};
 use super::held::Held;
-use super::instant::{self, Moment};
 use super::phase::{Phase, Phases};
 use super::rows::ComplexBlock;
 use super::signal::{Instant, Signal};
 use crate::history::Event;
 use crate::law::{Affine, Guard, Law, LocalMotion, State};
+use crate::method::instant::{self, Moment};
 use crate::number::{Instructions, Plain};
 use crate::problem::Problem;
 use crate::rigid::{Contacts, TOUCHING};

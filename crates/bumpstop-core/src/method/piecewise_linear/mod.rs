@@ -21,7 +21,6 @@ mod family;
 mod grouping;
 mod held;
 mod impedance;
-mod instant;
 mod jet;
 mod one_spring;
 mod partition;
@@ -31,7 +30,7 @@ mod poles;
 mod polynomial;
 mod principal;
 mod product;
-mod quadrature;
+pub(crate) mod quadrature;
 mod recent;
 mod record;
 mod response;
@@ -51,7 +50,8 @@ pub use enclosure::Enclosure;
 pub use jet::{Jet, Jets, Verdict};
 pub use record::PhaseRecord;
 
-use super::{Observer, observe};
+use super::instant::{self, Moment};
+use super::{Observer, check_linear, observe};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
 use crate::law::{Guard, Law, State};
@@ -61,7 +61,6 @@ use crate::rigid::{Cause, Contacts, Place};
 use advance::{Certificate, Crossing, Path, Walk};
 use curved::{CurvedGuards, Guards};
 use event::Watch;
-use instant::Moment;
 use phase::{Phases, Workspace};
 use recent::Recent;
 use spectrum::{Secular, Spectrum, Workbench};
@@ -82,6 +81,7 @@ const PHASES_BETWEEN_OBSERVATIONS: usize = 64;
 /// # Errors
 /// See [`Error`].
 pub fn simulate<L: Law>(problem: &Arc<Problem<L>>, observer: Observer<'_>) -> Result<History<L>> {
+    check_linear(NAME, &problem.laws)?;
     let mut run = Run::new(problem);
     dispatch(Advance {
         run: &mut run,

@@ -19,7 +19,7 @@ pub(super) const RULE: [(f64, f64); 8] = [
 pub(super) const LONGEST: f64 = 8.0;
 
 /// Integrals of the values of `f` from `start` to `start + length` by one panel.
-pub(super) fn panel<const N: usize>(
+pub(crate) fn panel<const N: usize>(
     start: f64,
     length: f64,
     mut f: impl FnMut(f64) -> [f64; N],

@@ -237,6 +237,9 @@ impl<I: Instructions> Number for Lanes<I> {
     fn sin_cos(self) -> (Self, Self) {
         elementary::sin_cos(self)
     }
+    fn power(self, exponent: f64) -> Self {
+        Self::new(self.numbers().map(|x| x.power(exponent)))
+    }
     #[inline(always)]
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self {
         Self(I::select_less(self.0, other.0, yes.0, no.0))
@@ -280,6 +283,7 @@ mod tests {
                 a.abs().sqrt(),
                 a.max(b),
                 a.exp(),
+                a.abs().power(1.5),
                 sin,
                 cos,
                 a.select_less(b, sin, cos),

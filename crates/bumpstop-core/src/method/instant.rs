@@ -1,6 +1,7 @@
 //! What the equations of motion say of the laws' local motion at one instant, without a spectrum.
 
 use crate::law::{Affine, COORDINATES, Law, Local, LocalMotion, Piece, State, project};
+use crate::number::Dual;
 use crate::problem::Problem;
 use crate::rigid::Directions;
 use crate::system::ModalSystem;
@@ -125,18 +126,14 @@ fn local_motion<L: Law>(
     let a = &*accelerations.values;
     jerks.add_structure(&problem.system, v, a);
     for (index, law, state) in others(problem, states, without) {
-        let piece = law.piece(state).unwrap_or(Piece::FREE);
-        let rate = Piece {
-            constant: [0.0; COORDINATES],
-            ..piece
-        };
-        let (mut velocity, mut acceleration) = (project(law, v), project(law, a));
+        let mut motion = [project(law, q), project(law, v), project(law, a)];
         if forcing.varies() {
-            let [_, moved, moved_rate, _] = forcing.motion(index, moment.time);
-            velocity[0] -= moved;
-            acceleration[0] -= moved_rate;
+            let moved = forcing.motion(index, moment.time);
+            for (local, moved) in motion.iter_mut().zip(moved) {
+                local[0] -= moved;
+            }
         }
-        jerks.add_law(law, &rate.force(&velocity, &acceleration));
+        jerks.add_law(law, &force_rate(law, state, motion));
     }
     jerks.react(&held);
     let mut motion = LocalMotion::default();
@@ -159,6 +156,30 @@ fn local_motion<L: Law>(
         motion.add(0, moved.map(|x| -x), moved.map(zero));
     }
     motion
+}
+
+/// The rate of a law's force, from local position, velocity and acceleration.
+pub(crate) fn force_rate<L: Law>(
+    law: &L,
+    state: State,
+    [position, velocity, acceleration]: [Local<f64>; 3],
+) -> Local<f64> {
+    if let Some(piece) = law.piece(state) {
+        let rate = Piece {
+            constant: [0.0; COORDINATES],
+            ..piece
+        };
+        return rate.force(&velocity, &acceleration);
+    }
+    let along = |values: Local<f64>, slopes: Local<f64>| {
+        std::array::from_fn(|i| Dual {
+            value: values[i],
+            slope: slopes[i],
+        })
+    };
+    let (position, velocity) = (along(position, velocity), along(velocity, acceleration));
+    law.force(state, &position, &velocity)
+        .map(|force| force.slope)
 }
 
 /// The laws with their numbers, without one where that is told, and their states.

@@ -1,0 +1,168 @@
+//! The error of a step, and the step that follows from it.
+//!
+//! The error of each number is measured by the largest that this number has been so far, since a
+//! vibration passes zero over and over. Displacements that are small beside the largest of them
+//! are measured by a part of that, and velocities alike, unless an absolute tolerance is given.
+//! The largest ratio counts.
+//!
+//! The controller is proportional and integral: K. Gustafsson, Control theoretic techniques for
+//! stepsize selection in explicit Runge-Kutta methods, ACM Transactions on Mathematical Software
+//! 17, 533-554, 1991.
+
+use super::dense::add_weighted;
+use super::equations::Layout;
+use super::pair::Pair;
+use crate::error::{Error, Result};
+
+/// How accurate a run is to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerances {
+    /// Error of a step relative to the largest value that a number has had.
+    pub relative: f64,
+    /// Error that is let pass besides, in m and m/s of the modal coordinates; without one, numbers
+    /// count as no smaller than [`SMALL`] of the largest of their kind.
+    pub absolute: Option<f64>,
+}
+
+/// The finest relative tolerance: below it rounding rules the error estimate.
+pub const FINEST: f64 = 1e-14;
+
+/// Part of the largest displacement, or velocity, below which others are measured by that part.
+pub const SMALL: f64 = 0.1;
+
+/// Part taken of the step that the error just allows.
+const SAFETY: f64 = 0.9;
+/// The most by which a step shrinks and grows.
+const FACTORS: [f64; 2] = [0.2, 5.0];
+/// Exponents of the last error and of the one before, times the order of the error.
+const EXPONENTS: [f64; 2] = [0.7, 0.4];
+/// Errors below it count as this: a step that has none tells nothing of the next.
+const LEAST: f64 = 1e-4;
+
+impl Tolerances {
+    /// Refuses tolerances out of range.
+    pub(super) fn check(&self) -> Result<()> {
+        if !(FINEST..1.0).contains(&self.relative) {
+            return Err(Error::Tolerance {
+                value: self.relative,
+                finest: FINEST,
+            });
+        }
+        match self.absolute {
+            Some(value) if value < 0.0 || !value.is_finite() => Err(Error::Negative {
+                what: "the absolute tolerance",
+                value,
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Judges steps and proposes the next.
+#[derive(Debug)]
+pub(super) struct Control {
+    tolerances: Tolerances,
+    /// The largest size of each number so far.
+    sizes: Vec<f64>,
+    scales: Vec<f64>,
+    errors: Vec<f64>,
+    /// Error of the last step that was taken.
+    before: f64,
+}
+
+impl Control {
+    pub(super) fn new(tolerances: Tolerances, start: &[f64], layout: &Layout) -> Self {
+        let controlled = layout.works;
+        Self {
+            tolerances,
+            sizes: start[..controlled].iter().map(|x| x.abs()).collect(),
+            scales: vec![0.0; controlled],
+            errors: vec![0.0; controlled],
+            before: LEAST,
+        }
+    }
+
+    /// The error of a step that ends in given numbers, over what is allowed; infinite where the
+    /// numbers are out of range.
+    pub(super) fn error(
+        &mut self,
+        pair: &Pair,
+        h: f64,
+        stages: &[Vec<f64>],
+        end: &[f64],
+        layout: &Layout,
+    ) -> f64 {
+        self.set_scales(end, layout);
+        let [first, second] = [0, 1]
+            .map(|n| (pair.errors.get(n)).map_or(0.0, |weights| self.largest(h, weights, stages)));
+        let error = if pair.errors.len() == 1 || first == 0.0 {
+            first
+        } else {
+            // Hairer's estimate for the pair of order 8, section II.10 of the same book.
+            first * first / (first * first + 0.01 * second * second).sqrt()
+        };
+        if error.is_finite() {
+            error
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Takes a step that ends in given numbers; returns the next one.
+    pub(super) fn accept(&mut self, pair: &Pair, h: f64, error: f64, end: &[f64]) -> f64 {
+        for (size, x) in self.sizes.iter_mut().zip(end) {
+            *size = size.max(x.abs());
+        }
+        let error = error.max(LEAST);
+        let [now, last] = EXPONENTS.map(|exponent| exponent / pair.error_order);
+        let factor = SAFETY * error.powf(-now) * self.before.powf(last);
+        self.before = error;
+        h * factor.clamp(FACTORS[0], FACTORS[1])
+    }
+
+    /// The step to try after one that was not good enough.
+    pub(super) fn reject(&self, pair: &Pair, h: f64, error: f64) -> f64 {
+        h * (SAFETY * error.powf(-1.0 / pair.error_order)).max(FACTORS[0])
+    }
+
+    fn largest(&mut self, h: f64, weights: &[f64], stages: &[Vec<f64>]) -> f64 {
+        self.errors.fill(0.0);
+        add_weighted(&mut self.errors, h, weights, stages);
+        let mut largest = 0.0f64;
+        for (error, scale) in self.errors.iter().zip(&self.scales) {
+            // A number that has always been zero has no error, or has just left zero.
+            let ratio = if *error == 0.0 {
+                0.0
+            } else {
+                error.abs() / scale
+            };
+            largest = if ratio > largest || ratio.is_nan() {
+                ratio
+            } else {
+                largest
+            };
+        }
+        largest
+    }
+
+    /// What the error of each number is measured by.
+    fn set_scales(&mut self, end: &[f64], layout: &Layout) {
+        for ((scale, size), x) in self.scales.iter_mut().zip(&self.sizes).zip(end) {
+            *scale = size.max(x.abs());
+        }
+        let Tolerances { relative, absolute } = self.tolerances;
+        let (motion, memories) = self.scales.split_at_mut(2 * layout.modes);
+        for kind in motion.chunks_mut(layout.modes) {
+            let largest = kind.iter().fold(0.0f64, |largest, x| largest.max(*x));
+            for scale in kind {
+                *scale = match absolute {
+                    Some(absolute) => absolute + relative * *scale,
+                    None => relative * scale.max(SMALL * largest),
+                };
+            }
+        }
+        for scale in memories {
+            *scale = absolute.unwrap_or(0.0) + relative * *scale;
+        }
+    }
+}

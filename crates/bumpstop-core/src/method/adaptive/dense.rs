@@ -1,0 +1,84 @@
+//! The dense output: a polynomial in time across each step.
+//!
+//! In the part theta of a step gone by, `y = F_0 + theta (F_1 + (1 - theta) (F_2 + theta (F_3 +
+//! (1 - theta) (F_4 + ...))))`. F_0 is the start, F_1 to F_3 make the cubic that has the values and
+//! slopes of both ends, the others are the pair's corrections. This is the form of E. Hairer,
+//! S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993, section II.6.
+
+use super::pair::Pair;
+
+/// Coefficients of the numbers of a step: `degree + 1` rows, each of one entry a number.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Dense<'a> {
+    /// All rows, one after the other.
+    pub rows: &'a [f64],
+    /// Entries of a row.
+    pub size: usize,
+}
+
+impl<'a> Dense<'a> {
+    /// The rows from a degree on down.
+    fn row(&self, number: usize) -> &'a [f64] {
+        &self.rows[number * self.size..][..self.size]
+    }
+
+    /// All rows, in order.
+    pub(crate) fn each(&self) -> impl DoubleEndedIterator<Item = &'a [f64]> + use<'a> {
+        self.rows.chunks_exact(self.size)
+    }
+
+    /// The numbers in the part theta of the step, as far as there is room for them.
+    pub(crate) fn at(&self, theta: f64, to: &mut [f64]) {
+        to.fill(0.0);
+        let degree = self.rows.len() / self.size - 1;
+        for number in (1..=degree).rev() {
+            let factor = factor(number, theta);
+            for (value, part) in to.iter_mut().zip(self.row(number)) {
+                *value = (*value + part) * factor;
+            }
+        }
+        for (value, start) in to.iter_mut().zip(self.row(0)) {
+            *value += start;
+        }
+    }
+}
+
+/// What stands before the bracket of a coefficient.
+fn factor(number: usize, theta: f64) -> f64 {
+    if number % 2 == 1 { theta } else { 1.0 - theta }
+}
+
+/// Writes the coefficients of a step of width h from its stages and both its ends.
+pub(crate) fn write(
+    pair: &Pair,
+    h: f64,
+    stages: &[Vec<f64>],
+    [start, end]: [&[f64]; 2],
+    to: &mut Vec<f64>,
+) {
+    to.clear();
+    to.extend_from_slice(start);
+    let (first, last) = (&stages[0], &stages[pair.b.len()]);
+    let across = start.iter().zip(end).map(|(a, b)| b - a);
+    to.extend(across.clone());
+    to.extend(across.clone().zip(first).map(|(d, f)| h * f - d));
+    let slopes = first.iter().zip(last).map(|(f, g)| h * (f + g));
+    to.extend(across.zip(slopes).map(|(d, s)| 2.0 * d - s));
+    for weights in pair.corrections {
+        let begun = to.len();
+        to.resize(begun + start.len(), 0.0);
+        add_weighted(&mut to[begun..], h, weights, stages);
+    }
+}
+
+/// Adds `h sum_i w_i k_i`.
+pub(crate) fn add_weighted(to: &mut [f64], h: f64, weights: &[f64], stages: &[Vec<f64>]) {
+    for (weight, stage) in weights.iter().zip(stages) {
+        if *weight != 0.0 {
+            let factor = h * weight;
+            for (to, k) in to.iter_mut().zip(stage) {
+                *to += factor * k;
+            }
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! The equations of motion as a system of first order.
+//!
+//! Its numbers are modal displacements, modal velocities, memories of laws that follow rate
+//! equations, and the works of the energy ledger, each integrated from its own power.
+
+use super::loads::Loads;
+use crate::energy::{self, Ledger};
+use crate::law::{Law, Local, Piece, State, project};
+use crate::problem::Problem;
+
+/// Where the numbers stand.
+#[derive(Debug, Clone)]
+pub(crate) struct Layout {
+    pub modes: usize,
+    /// Where the memory of each law that flows begins.
+    pub memories: Vec<Option<usize>>,
+    /// Where the works begin; numbers from there on do not feed back.
+    pub works: usize,
+}
+
+/// Numbers of a memory.
+const MEMORY: usize = 2;
+
+/// Works beside those of each law.
+const WORKS: usize = 4;
+const MODAL: usize = 0;
+const LOADS: usize = 1;
+const CIRCULATORY: usize = 2;
+const OBSTACLES: usize = 3;
+
+impl Layout {
+    pub(crate) fn new<L: Law>(problem: &Problem<L>) -> Self {
+        let modes = problem.system.modes();
+        let mut works = 2 * modes;
+        let memories = (problem.laws.iter())
+            .map(|law| {
+                law.flows().then(|| {
+                    works += MEMORY;
+                    works - MEMORY
+                })
+            })
+            .collect();
+        Self {
+            modes,
+            memories,
+            works,
+        }
+    }
+
+    /// How many numbers there are.
+    pub(crate) fn size(&self) -> usize {
+        self.works + WORKS + self.memories.len()
+    }
+
+    /// Where the dissipation of a law stands.
+    pub(crate) fn dissipated(&self, law: usize) -> usize {
+        self.works + WORKS + law
+    }
+
+    /// Modal displacements and velocities.
+    pub(crate) fn motion<'a>(&self, numbers: &'a [f64]) -> [&'a [f64]; 2] {
+        let (q, rest) = numbers.split_at(self.modes);
+        [q, &rest[..self.modes]]
+    }
+
+    /// A law's state with the memory that the numbers tell.
+    pub(crate) fn state(&self, law: usize, state: State, numbers: &[f64]) -> State {
+        match self.memories[law] {
+            Some(at) => State::with_memory(state.number, [numbers[at], numbers[at + 1]]),
+            None => state,
+        }
+    }
+
+    /// Puts the memory of a state that begins among the numbers.
+    pub(crate) fn remember(&self, law: usize, state: State, numbers: &mut [f64]) {
+        if let Some(at) = self.memories[law] {
+            numbers[at..at + MEMORY].copy_from_slice(&state.memory);
+        }
+    }
+
+    /// The energy ledger that the numbers tell.
+    pub(crate) fn ledger<L: Law>(
+        &self,
+        problem: &Problem<L>,
+        time: f64,
+        states: &[State],
+        numbers: &[f64],
+    ) -> Ledger {
+        let [q, v] = self.motion(numbers);
+        let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, v);
+        let works = &numbers[self.works..];
+        let laws = problem.laws.iter().enumerate();
+        Ledger {
+            kinetic,
+            elastic,
+            law_stored: laws
+                .map(|(index, law)| {
+                    let [position, _] = problem.local(index, time, q, v);
+                    law.stored(self.state(index, states[index], numbers), &position)
+                })
+                .collect(),
+            modal_dissipation: works[MODAL],
+            law_dissipated: works[WORKS..].to_vec(),
+            load_work: problem.forcing.work(&problem.displacement, q) + works[LOADS],
+            circulatory_work: works[CIRCULATORY],
+            obstacle_work: works[OBSTACLES],
+        }
+    }
+}
+
+/// The rates of all numbers.
+pub(super) struct Equations<'a, L> {
+    pub problem: &'a Problem<L>,
+    pub layout: Layout,
+    pub loads: Loads<'a>,
+    /// The laws' states, and their matrices where these say all.
+    states: Vec<State>,
+    pieces: Vec<Option<Piece>>,
+    moves: bool,
+    changing: Vec<f64>,
+}
+
+impl<'a, L: Law> Equations<'a, L> {
+    pub(super) fn new(problem: &'a Problem<L>) -> Self {
+        Self {
+            problem,
+            layout: Layout::new(problem),
+            loads: Loads::new(&problem.forcing),
+            states: Vec::new(),
+            pieces: Vec::new(),
+            moves: problem.forcing.moved().next().is_some(),
+            changing: vec![0.0; problem.system.modes()],
+        }
+    }
+
+    /// Turns to other states of the laws.
+    pub(super) fn take_states(&mut self, states: &[State]) {
+        self.states.clear();
+        self.states.extend_from_slice(states);
+        let both = self.problem.laws.iter().zip(states);
+        self.pieces.clear();
+        // The matrices go on beyond the guards, where a law's own force is cut off: a step that
+        // passes a guard stays smooth.
+        self.pieces.extend(both.map(|(law, state)| {
+            let remembers = law.flows();
+            law.piece(*state).filter(|_| !remembers)
+        }));
+    }
+
+    /// Local position and velocity of a law, from its obstacle, and the speed of that.
+    fn local(&self, law: usize, time: f64, [q, v]: [&[f64]; 2]) -> (Local<f64>, Local<f64>, f64) {
+        let which = &self.problem.laws[law];
+        let (mut position, mut velocity) = (project(which, q), project(which, v));
+        let mut speed = 0.0;
+        if self.moves {
+            let moved;
+            [moved, speed] = self.loads.motion(law, time);
+            position[0] -= moved;
+            velocity[0] -= speed;
+        }
+        (position, velocity, speed)
+    }
+
+    /// The rates of the numbers at a time.
+    pub(super) fn rates(&mut self, time: f64, numbers: &[f64], to: &mut [f64]) {
+        let layout = &self.layout;
+        let modes = layout.modes;
+        let [q, v] = layout.motion(numbers);
+        let (motion, works) = to.split_at_mut(layout.works);
+        let (rates, rest) = motion.split_at_mut(modes);
+        let (accelerations, memories) = rest.split_at_mut(modes);
+        works.fill(0.0);
+        rates.copy_from_slice(v);
+        accelerations.copy_from_slice(self.problem.forcing.forces());
+        if self.loads.vary() {
+            self.loads.changing(time, &mut self.changing);
+            for ((a, p), v) in accelerations.iter_mut().zip(&self.changing).zip(v) {
+                *a += p;
+                works[LOADS] += p * v;
+            }
+        }
+        self.add_structure([q, v], accelerations, works);
+        for (index, law) in self.problem.laws.iter().enumerate() {
+            let (position, velocity, speed) = self.local(index, time, [q, v]);
+            let state = layout.state(index, self.states[index], numbers);
+            let force = match &self.pieces[index] {
+                Some(piece) => piece.force(&position, &velocity),
+                None => law.force(state, &position, &velocity),
+            };
+            for (row, force) in law.rows().iter().zip(force) {
+                for (a, r) in accelerations.iter_mut().zip(row) {
+                    *a += r * force;
+                }
+            }
+            works[OBSTACLES] += force[0] * speed;
+            works[WORKS + index] = law.dissipated_power(state, &position, &velocity);
+            if let Some(at) = layout.memories[index] {
+                let rates = law.memory_rates(state, &position, &velocity);
+                memories[at - 2 * modes..][..MEMORY].copy_from_slice(&rates);
+            }
+        }
+    }
+
+    /// What stiffness, damping and the matrices that couple modes do.
+    fn add_structure(&self, [q, v]: [&[f64]; 2], to: &mut [f64], works: &mut [f64]) {
+        let system = &self.problem.system;
+        let own = system.omega2().iter().zip(system.damping());
+        for ((a, (w2, c)), (q, v)) in to.iter_mut().zip(own).zip(q.iter().zip(v)) {
+            *a -= w2 * q + c * v;
+            works[MODAL] += c * v * v;
+        }
+        for (matrix, motion, work, sign) in [
+            (system.coupling(), v, MODAL, 1.0),
+            (system.circulatory(), q, CIRCULATORY, -1.0),
+        ] {
+            if let Some(matrix) = matrix {
+                for (mode, (a, v)) in to.iter_mut().zip(v).enumerate() {
+                    let force = matrix.product(mode, motion);
+                    *a -= force;
+                    works[work] += sign * force * v;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! What an adaptive run keeps: the polynomial of every step.
+
+use super::contact::ContactReader;
+use super::dense::Dense;
+use super::equations::Layout;
+use crate::energy::{self, Ledger};
+use crate::error::{Error, Result};
+use crate::impacts::Impact;
+use crate::law::{Law, State};
+use crate::problem::Problem;
+
+/// The most memory that a record may take, in bytes.
+const LARGEST_RECORD: usize = 4 << 30;
+
+/// The steps of a run.
+#[derive(Debug, Clone)]
+pub struct AdaptiveRecord {
+    pub(super) layout: Layout,
+    degree: usize,
+    list: Vec<Step>,
+    rows: Vec<f64>,
+    /// States of all laws; steps between two switches share them.
+    states: Vec<State>,
+}
+
+/// A step, as far as it was gone.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    pub start: f64,
+    pub end: f64,
+    /// The width of the polynomial, which may go on beyond the end.
+    h: f64,
+    /// Where its states begin.
+    states: usize,
+}
+
+impl AdaptiveRecord {
+    pub(super) fn new(layout: Layout, degree: usize) -> Self {
+        Self {
+            layout,
+            degree,
+            list: Vec::new(),
+            rows: Vec::new(),
+            states: Vec::new(),
+        }
+    }
+
+    /// Keeps a step of width h up to a time.
+    ///
+    /// # Errors
+    /// [`Error::LongRecord`] where there is no more room.
+    pub(super) fn add(
+        &mut self,
+        start: f64,
+        h: f64,
+        end: f64,
+        dense: Dense<'_>,
+        states: &[State],
+    ) -> Result<()> {
+        if (self.rows.len() + dense.rows.len()) * size_of::<f64>() > LARGEST_RECORD {
+            return Err(Error::LongRecord { time: start });
+        }
+        let before = self.list.last().map(|step| step.states);
+        let states_at = match before.filter(|at| &self.states[*at..] == states) {
+            Some(known) => known,
+            None => {
+                self.states.extend_from_slice(states);
+                self.states.len() - states.len()
+            }
+        };
+        self.rows.extend_from_slice(dense.rows);
+        self.list.push(Step {
+            start,
+            end,
+            h,
+            states: states_at,
+        });
+        Ok(())
+    }
+
+    /// How many steps there are.
+    pub fn steps(&self) -> usize {
+        self.list.len()
+    }
+
+    pub(super) fn list(&self) -> &[Step] {
+        &self.list
+    }
+
+    /// All numbers and the laws' states in a step at a time.
+    pub(super) fn read(&self, step: usize, time: f64, moment: &mut Reading) {
+        let Step {
+            start, h, states, ..
+        } = self.list[step];
+        let size = self.layout.size();
+        let rows = (self.degree + 1) * size;
+        let dense = Dense {
+            rows: &self.rows[step * rows..][..rows],
+            size,
+        };
+        dense.at((time - start) / h, &mut moment.numbers);
+        let known = self.states[states..].iter().enumerate();
+        for (to, (law, state)) in moment.states.iter_mut().zip(known) {
+            *to = self.layout.state(law, *state, &moment.numbers);
+        }
+    }
+
+    /// Room for what is read at one instant.
+    pub(super) fn reading(&self) -> Reading {
+        Reading {
+            numbers: vec![0.0; self.layout.size()],
+            states: vec![State::FIRST; self.layout.memories.len()],
+        }
+    }
+
+    /// The number of the step at a time: the last one that has started.
+    fn step_at(&self, time: f64) -> usize {
+        self.list.partition_point(|step| step.start <= time).max(1) - 1
+    }
+
+    /// Shows modal displacement, velocity and law states at each time.
+    pub(crate) fn visit(&self, times: &[f64], mut see: impl FnMut(f64, &[f64], &[f64], &[State])) {
+        let mut reading = self.reading();
+        for &time in times {
+            self.read(self.step_at(time), time, &mut reading);
+            let [q, v] = self.layout.motion(&reading.numbers);
+            see(time, q, v, &reading.states);
+        }
+    }
+
+    /// The energy ledger at each time.
+    pub(crate) fn ledgers<L: Law>(&self, problem: &Problem<L>, times: &[f64]) -> Vec<Ledger> {
+        let mut reading = self.reading();
+        let at = |time: &f64| self.ledger(problem, self.step_at(*time), *time, &mut reading);
+        times.iter().map(at).collect()
+    }
+
+    fn ledger<L: Law>(
+        &self,
+        problem: &Problem<L>,
+        step: usize,
+        time: f64,
+        reading: &mut Reading,
+    ) -> Ledger {
+        self.read(step, time, reading);
+        let Reading { numbers, states } = reading;
+        self.layout.ledger(problem, time, states, numbers)
+    }
+
+    /// Largest imbalance at both ends of all steps, relative to the largest energy.
+    pub(crate) fn energy_residual<L: Law>(&self, problem: &Problem<L>) -> f64 {
+        let mut reading = self.reading();
+        let ends = self.list.iter().enumerate();
+        let ends = ends.flat_map(|(number, step)| [(number, step.start), (number, step.end)]);
+        let ledgers: Vec<Ledger> = ends
+            .map(|(step, time)| self.ledger(problem, step, time, &mut reading))
+            .collect();
+        energy::residual(ledgers.iter())
+    }
+
+    /// Impacts of one law, in order of closing.
+    pub(crate) fn impacts<L: Law>(&self, problem: &Problem<L>, law: usize) -> Vec<Impact> {
+        ContactReader::new(self, problem, law).impacts()
+    }
+}
+
+/// All numbers and the laws' states at one instant.
+pub(super) struct Reading {
+    pub numbers: Vec<f64>,
+    pub states: Vec<State>,
+}
