@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bumpstop.io.meshes import read_mesh
     from bumpstop.io.modes import identify_modes, read_modes
     from bumpstop.laws.friction import Friction
+    from bumpstop.laws.hertz_stop import HertzStop
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
@@ -123,6 +124,7 @@ __all__ = [
     "GeneralSection",
     "Gravity",
     "Harmonic",
+    "HertzStop",
     "HoleScar",
     "InputError",
     "Joint",
@@ -230,6 +232,7 @@ _HOME = {
     "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
     "Harmonic": "loads.time",
+    "HertzStop": "laws.hertz_stop",
     "HoleScar": "post.scars",
     "InputError": "errors",
     "Joint": "modal.substructure.joint",

@@ -10,7 +10,7 @@ from bumpstop import _core
 from bumpstop.arguments import did_you_mean, finite, not_negative, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import ComputationError, InputError
-from bumpstop.problem import Problem
+from bumpstop.problem import Law, Problem
 from bumpstop.response import Response
 
 __all__ = ["METHODS", "simulate"]
@@ -19,11 +19,12 @@ FIXED_STEP_METHODS = ("symplectic_euler", "central_difference")
 ADAPTIVE_METHODS = ("rk32", "rk54", "dop853")
 METHODS = ("auto", "exact", *FIXED_STEP_METHODS, *ADAPTIVE_METHODS)
 OPTIONS: dict[str, tuple[str, ...]] = {
+    "auto": ("rtol", "atol"),
     "exact": (),
     **dict.fromkeys(FIXED_STEP_METHODS, ("dt", "beyond_stability_limit")),
     **dict.fromkeys(ADAPTIVE_METHODS, ("rtol", "atol")),
 }
-"""What each method can be told."""
+"""What each method can be told; ``"auto"`` has no use for it where it takes the exact one."""
 LARGEST_RECORD = 4 * 2**30
 """Memory in bytes that the core gives to the steps of a run."""
 LANES = 8
@@ -64,11 +65,11 @@ def simulate(
     beyond_stability_limit
         Allow a step above the method's stability limit.
     rtol
-        Relative tolerance of the adaptive methods, 1e-8 where left out: the error of a step in
-        each modal displacement and velocity over the largest that it has been so far.
+        Relative tolerance of the adaptive methods, if one is taken, 1e-8 where left out: the error
+        of a step in each modal displacement and velocity over the largest that it has been so far.
     atol
         Absolute tolerance of the adaptive methods, in the units of the modal displacements and of
-        their rates; where left out, displacements, or velocities, below a thousandth of the
+        their rates; where left out, displacements, or velocities, below a tenth of the
         largest among them are measured by that.
     progress
         Called with the fraction done, between 0 and 1, about ten times a second.
@@ -106,6 +107,8 @@ def simulate(
         raise InputError("must be a Problem", key="problem", value=problem, hint=hint)
     one_of("method", method, METHODS)
     chosen, reason = _choose(method, problem)
+    if chosen == "exact" and method == "auto":
+        rtol = atol = None
     beyond = beyond_stability_limit or None
     _check_options(chosen, unknown, dt=dt, beyond_stability_limit=beyond, rtol=rtol, atol=atol)
     _refuse_coupled_modes(chosen, problem)
@@ -131,9 +134,9 @@ def simulate(
     except _core.CoreError as error:
         _blame_scale(chosen, problem, error)
         raise ComputationError(f"the {chosen} method could not finish: {error}") from error
-    options = {} if step is None else {"dt": step}
-    if tolerances is not None:
-        options = {"rtol": tolerances[0]} | ({} if atol is None else {"atol": atol})
+    relative, absolute = tolerances or (None, None)
+    told = {"dt": step, "rtol": relative, "atol": absolute}
+    options = {name: value for name, value in told.items() if value is not None}
     return Response(problem, history, times=problem.times, method_reason=reason, options=options)
 
 
@@ -153,8 +156,9 @@ def _choose(method: str, problem: Problem) -> tuple[str, str]:
     if method != "auto":
         return method, "asked for"
     for law in problem.laws:
-        if is_smooth(law):
-            return "dop853", f"{law.name!r} is not piecewise linear: {law.smooth}"
+        reason = _smooth(law)
+        if reason:
+            return "dop853", f"{law.name!r} is not piecewise linear: {reason}"
     return "exact", "all laws are piecewise linear"
 
 
@@ -181,7 +185,7 @@ def _refuse_coupled_modes(method: str, problem: Problem) -> None:
             "does not take modes that damping or gyroscopic forces couple",
             key="method",
             value=method,
-            hint="the exact method does",
+            hint=f"the exact method and {', '.join(ADAPTIVE_METHODS)} do",
         )
 
 
@@ -203,13 +207,17 @@ def _refuse_smooth_laws(method: str, problem: Problem) -> None:
     if method in ADAPTIVE_METHODS:
         return
     for law in problem.laws:
-        if is_smooth(law):
-            raise InputError(
-                f"does not take {law.name!r}: {law.smooth}",
-                key="method",
-                value=method,
-                hint=f"{', '.join(ADAPTIVE_METHODS)} do",
-            )
+        reason = _smooth(law)
+        if reason:
+            what = f"does not take {law.name!r}: {reason}"
+            hint = f"{', '.join(ADAPTIVE_METHODS)} do"
+            raise InputError(what, key="method", value=method, hint=hint)
+
+
+def _smooth(law: Law) -> str:
+    """Return why a law is not piecewise linear; nothing where it is."""
+    reason: str = getattr(law, "smooth", "")
+    return reason
 
 
 def _checked_tolerances(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from bumpstop.io.case import Case
 from bumpstop.io.case.case import MethodOptions
 from bumpstop.post.references import Check, check_frequencies, check_references
 from bumpstop.response import Response
-from bumpstop.simulate import FIXED_STEP_METHODS, METHODS, simulate
+from bumpstop.simulate import FIXED_STEP_METHODS, METHODS, OPTIONS, simulate
 
 __all__ = [
     "CaseResult",
@@ -106,13 +106,19 @@ def _solved(case: Case, name: str, stepping: Stepping, progress: Progress) -> Va
         return VariantResult(name, None, frequency_checks(case, name))
     own_method, options = case.methods[name]
     chosen = stepping.method or own_method
-    used = options if chosen in FIXED_STEP_METHODS else MethodOptions()
+    used = _usable(chosen, options)
     if stepping.dt is not None:
         used = MethodOptions(**used | {"dt": stepping.dt})
     with _located(case, name), progress(f"{case.name}, {name}") as tell:
         response = simulate(case.problems[name], chosen, progress=tell, **used)
         checks = check_references(response, case.references[name])
     return VariantResult(name, response, checks)
+
+
+def _usable(method: str, options: MethodOptions) -> MethodOptions:
+    """Return the options that a method takes."""
+    used = {key: value for key, value in options.items() if key in OPTIONS[method]}
+    return cast(MethodOptions, used)
 
 
 def frequency_checks(case: Case, variant: str) -> list[Check]:

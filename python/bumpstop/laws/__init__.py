@@ -8,14 +8,16 @@ from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
     from bumpstop.laws.friction import Friction
+    from bumpstop.laws.hertz_stop import HertzStop
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
 
-__all__ = ["Friction", "RigidStop", "SpringLaw", "Stop"]
+__all__ = ["Friction", "HertzStop", "RigidStop", "SpringLaw", "Stop"]
 
 _HOME = {
     "Friction": "friction",
+    "HertzStop": "hertz_stop",
     "RigidStop": "rigid_stop",
     "SpringLaw": "spring",
     "Stop": "stop",

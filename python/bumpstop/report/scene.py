@@ -8,7 +8,7 @@ import numpy as np
 
 from bumpstop.report.curves import contact_spans
 from bumpstop.report.outline import UNSEEN, view_of
-from bumpstop.report.scales import scale_for, with_unit
+from bumpstop.report.scales import scale_for, significant, with_unit
 from bumpstop.report.stops import fixed_stops
 from bumpstop.report.words import unit_of
 from bumpstop.structure.drawn import DrawnModel
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bumpstop.arguments import FloatArray
-    from bumpstop.laws import RigidStop, Stop
+    from bumpstop.laws.contact import Contact
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
     from bumpstop.report.outline import Outline
@@ -165,9 +165,7 @@ def _away_from(drawing: Outline, view: FloatArray, place: int) -> FloatArray:
     return np.asarray(np.eye(len(view))[0])
 
 
-def _stop(
-    law: Stop | RigidStop, drawing: Outline, view: FloatArray, response: Response
-) -> dict[str, Any]:
+def _stop(law: Contact, drawing: Outline, view: FloatArray, response: Response) -> dict[str, Any]:
     times = response.times
     return {
         "name": law.name,
@@ -179,10 +177,15 @@ def _stop(
     }
 
 
-def _give(law: Stop | RigidStop) -> str:
+def _give(law: Contact) -> str:
     """Return how far a stop gives way, in words."""
-    stiffness = getattr(law, "stiffness", None)
-    return "rigid" if stiffness is None else with_unit(stiffness, "N/m")
+    stiffness: float | None = getattr(law, "stiffness", None)
+    if stiffness is None:
+        return "rigid"
+    exponent: float | None = getattr(law, "exponent", None)
+    if exponent is None:
+        return with_unit(stiffness, "N/m")
+    return f"{significant(stiffness, 4)} N/m^{exponent:g}"
 
 
 def _frame_times(response: Response) -> FloatArray:

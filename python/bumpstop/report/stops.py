@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bumpstop.laws import RigidStop, Stop
+from bumpstop.laws.contact import Contact
 
 if TYPE_CHECKING:
     from bumpstop.problem import Problem
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 __all__ = ["fixed_stops"]
 
 
-def fixed_stops(problem: Problem) -> list[Stop | RigidStop]:
+def fixed_stops(problem: Problem) -> list[Contact]:
     """Return the stops whose obstacle stays where it is, at one node."""
-    stops = [law for law in problem.laws if isinstance(law, Stop | RigidStop)]
+    stops = [law for law in problem.laws if isinstance(law, Contact)]
     return [stop for stop in stops if stop.other is None and stop.terms is None]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.laws import Friction, RigidStop, SpringLaw, Stop
+from bumpstop.laws import Friction, HertzStop, RigidStop, SpringLaw, Stop
 from bumpstop.loads import (
     BaseMotion,
     Gravity,
@@ -56,6 +56,12 @@ METHODS = {
         "Exact",
         "closed form between two switches of contact; every step is proved to miss none",
     ),
+    "rk32": ("Bogacki-Shampine", "a Runge-Kutta pair of order 3; every switch of contact located"),
+    "rk54": ("Dormand-Prince", "a Runge-Kutta pair of order 5; every switch of contact located"),
+    "dop853": (
+        "Dormand-Prince 8",
+        "a Runge-Kutta pair of order 8; every switch of contact located",
+    ),
     "symplectic_euler": ("Symplectic Euler", "equal steps, first order"),
     "central_difference": ("Central difference", "equal steps, second order"),
 }
@@ -63,11 +69,13 @@ METHODS = {
 
 
 def method_words(response: Response) -> tuple[str, str]:
-    """Return a method's name, with its step where it has one, and its nature and reason."""
+    """Return a method's name, with its step or tolerance, and its nature and reason."""
     name, nature = METHODS.get(response.method, (response.method, ""))
     step = response.options.get("dt")
     if step is not None:
         name = f"{name}, dt = {with_unit(step, 's')}"
+    if "rtol" in response.options:
+        name = f"{name}, rtol = {response.options['rtol']:g}"
     reason = f"Chosen because {response.method_reason}." if response.method_reason else ""
     if response.method_reason == "asked for":
         reason = "As asked for."
@@ -235,6 +243,11 @@ def _law(law: Law) -> str:
         return (
             f"{law.name}: a rigid {law.obstacle} {_pushing(law.coordinate)}, {gap}, {restitution}"
         )
+    if isinstance(law, HertzStop):
+        gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
+        force = f"{significant(law.stiffness, 4)} N/m^{_plain(law.exponent)}"
+        damping = f", {with_unit(law.hunt_crossley, 's/m')}" if law.hunt_crossley else ""
+        return f"{law.name}: a {law.obstacle} {_pushing(law.coordinate)}, {gap}, {force}{damping}"
     return law.name
 
 

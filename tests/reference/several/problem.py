@@ -49,8 +49,8 @@ class SeveralStops:
         """Return the system that makes all forces in time."""
         return Exosystem.of(self.force, self.loads)
 
-    def solve(self) -> "History":
-        """Let the core solve it by the exact method."""
+    def solve(self, method: str = "exact", rtol: float | None = None) -> "History":
+        """Let the core solve it by the exact method, or by an adaptive one."""
         from bumpstop import _core
 
         polynomials = [
@@ -75,5 +75,6 @@ class SeveralStops:
             self.displacement,
             self.velocity,
             self.duration,
-            "exact",
+            method,
+            tolerances=None if rtol is None else (rtol, None),
         )

@@ -1,8 +1,8 @@
 //! Any of the laws, so that a problem can have several kinds.
 
 use super::{
-    Constraint, FrictionStop, Guard, HertzStop, Law, Local, LocalMotion, Piece, Power, RigidStop, Spring,
-    State, Stop,
+    Constraint, FrictionStop, Guard, HertzStop, Law, Local, LocalMotion, Piece, Power, RigidStop,
+    Spring, State, Stop,
 };
 use crate::number::Number;
 use std::borrow::Cow;

@@ -15,14 +15,16 @@ __all__ = ["Case", "Method", "MethodOptions"]
 
 
 class MethodOptions(TypedDict, total=False):
-    """Options of the fixed-step methods: the step in s, and whether it may be unstable."""
+    """Options of the methods: the step in s and whether it may be unstable, or tolerances."""
 
     dt: float
     beyond_stability_limit: bool
+    rtol: float
+    atol: float
 
 
 class Method(NamedTuple):
-    """How time is integrated; methods without a fixed step have no use for the options."""
+    """How time is integrated; each method has use for some of the options only."""
 
     name: str
     options: MethodOptions

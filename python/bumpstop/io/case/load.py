@@ -117,6 +117,10 @@ def _method(run: RunTable) -> Method:
     options: MethodOptions = {"beyond_stability_limit": run.beyond_stability_limit}
     if run.dt is not None:
         options["dt"] = run.dt
+    if run.rtol is not None:
+        options["rtol"] = run.rtol
+    if run.atol is not None:
+        options["atol"] = run.atol
     return Method(run.method, options)
 
 

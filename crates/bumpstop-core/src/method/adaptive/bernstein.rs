@@ -34,8 +34,9 @@ impl Bernstein {
     /// `theta^up (1 - theta)^down`, of a degree that may be higher than their sum.
     pub(super) fn product(degree: usize, up: usize, down: usize) -> Self {
         let mut c = [0.0; MOST + 1];
-        for i in up..=degree - down {
-            c[i] = binomial(degree - up - down, i - up) / binomial(degree, i);
+        let from_up = c[up..=degree - down].iter_mut().enumerate();
+        for (i, to) in from_up {
+            *to = binomial(degree - up - down, i) / binomial(degree, up + i);
         }
         Self { degree, c }
     }

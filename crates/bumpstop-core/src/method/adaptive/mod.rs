@@ -27,7 +27,7 @@ use super::instant::{self, Moment};
 use super::{Observer, observe};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
-use crate::law::{Law, State};
+use crate::law::{Law, Local, LocalMotion, State};
 use crate::problem::Problem;
 use control::Control;
 use equations::Equations;
@@ -227,6 +227,12 @@ impl<'a, L: Law> Run<'a, L> {
         let which = &problem.laws[law];
         let states = &self.states;
         let acting = |state| instant::acting(problem, states, (law, state), moment);
+        let doubt = doubt(&acting(before), &crossing.acceleration);
+        let acting = |state| {
+            let mut motion = acting(state);
+            motion.zero[2] = motion.zero[2].max(doubt);
+            motion
+        };
         let after = which.next_state(before, crossing.guard, acting);
         let [position, _] = problem.local(law, self.time, displacement, velocity);
         numbers[layout.dissipated(law)] += which.switch_loss(before, after, &position);
@@ -242,6 +248,13 @@ impl<'a, L: Law> Run<'a, L> {
         self.equations.take_states(&self.states);
         Ok(())
     }
+}
+
+/// By how much the accelerations of the equations and of the polynomial that a switch was found on
+/// differ: what is smaller counts as zero where the law decides how it goes on.
+fn doubt(motion: &LocalMotion, found: &Local<f64>) -> f64 {
+    let both = motion.derivatives[2].iter().zip(found);
+    both.map(|(a, b)| 2.0 * (a - b).abs()).sum()
 }
 
 /// A step that turns the highest frequency of the structure and of the loads by little.

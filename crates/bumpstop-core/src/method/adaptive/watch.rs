@@ -8,7 +8,7 @@ use super::curved::Curve;
 use super::dense::Dense;
 use super::equations::Layout;
 use super::loads::Loads;
-use crate::law::{Affine, COORDINATES, Law, State};
+use crate::law::{Affine, COORDINATES, Law, Local, State};
 use crate::problem::Problem;
 
 /// A guard counts as zero down to this many times the rounding of what it is made of.
@@ -25,6 +25,8 @@ pub(super) struct Crossing {
     pub guard: usize,
     /// The part of the step that goes before it.
     pub theta: f64,
+    /// The law's local accelerations there, as the polynomials tell them.
+    pub acceleration: Local<f64>,
 }
 
 /// A step as the guards see it.
@@ -99,6 +101,7 @@ impl Watch {
                         law: index,
                         guard,
                         theta,
+                        acceleration: track.acceleration(theta),
                     });
                 }
             }
@@ -185,6 +188,10 @@ impl Track {
             size += rate * velocities[c];
         }
         ROUNDINGS * f64::EPSILON * size
+    }
+
+    fn acceleration(&self, theta: f64) -> Local<f64> {
+        (self.velocity).map(|velocity| velocity.derivative().at(theta) / self.h)
     }
 
     /// The same on both halves of the step.

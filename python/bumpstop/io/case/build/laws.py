@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.laws import LawTable
     from bumpstop.io.case.tables.motion import MotionTable
     from bumpstop.io.case.tables.stops import StopTable
-    from bumpstop.laws import RigidStop, SpringLaw
+    from bumpstop.laws import HertzStop, RigidStop, SpringLaw
     from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Law
 
@@ -31,6 +32,10 @@ ELASTIC = (
     "frame",
 )
 """What a stop that gives way can have."""
+POWER = ("exponent", "hunt_crossley")
+"""What makes a stop one whose force is a power of its depth."""
+NOT_POWER = tuple(key for key in ELASTIC if key not in ("stiffness", "motion"))
+"""What such a stop cannot have."""
 
 
 def built_laws(case: CaseFile, folder: Path) -> list[Law]:
@@ -45,8 +50,9 @@ def built_laws(case: CaseFile, folder: Path) -> list[Law]:
     return laws
 
 
-def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop:
+def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop | HertzStop:
     from bumpstop.errors import InputError
+    from bumpstop.io.case.fields.laws import contact_stiffness
 
     given = _given(table)
     if table.motion is not None:
@@ -55,11 +61,7 @@ def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop:
     if table.restitution is not None:
         from bumpstop.laws import RigidStop
 
-        for key in ELASTIC:
-            if given.pop(key, None):
-                hint = "leave it out, or restitution"
-                value = getattr(table, key)
-                raise InputError("is of no use to a rigid stop", key=key, value=value, hint=hint)
+        _refuse(given, (*ELASTIC, *POWER), "a rigid stop", "restitution")
         return RigidStop(name, **given)
     if table.stiffness is None:
         hint = "a rigid stop has a restitution instead"
@@ -67,7 +69,26 @@ def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop:
     if "resolution" in given:
         what, value = "belongs to rigid stops", given["resolution"]
         raise InputError(what, key="resolution", value=value, hint="leave it out")
+    power = any(key in given for key in POWER)
+    exponent = given.get("exponent", 1.5 if power else 1.0)
+    given["stiffness"] = contact_stiffness(table.stiffness, exponent)
+    if power:
+        from bumpstop.laws import HertzStop
+
+        _refuse(given, NOT_POWER, "a stop whose force is a power of its depth", "exponent")
+        return HertzStop(name, **given)
     return Stop(name, **given)
+
+
+def _refuse(given: dict[str, Any], keys: Iterable[str], kind: str, reason: str) -> None:
+    """Raise for keys that a kind of stop has no use for; those at their defaults are taken out."""
+    from bumpstop.errors import InputError
+
+    for key in keys:
+        value = given.pop(key, None)
+        if value:
+            hint = f"leave it out, or {reason}"
+            raise InputError(f"is of no use to {kind}", key=key, value=value, hint=hint)
 
 
 def _motion(table: MotionTable, folder: Path) -> list[TimeFunction]:

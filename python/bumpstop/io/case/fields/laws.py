@@ -6,18 +6,55 @@ from typing import Annotated, Any
 
 from bumpstop.errors import InputError
 from bumpstop.io.case.fields.plain import Plain, read_list
-from bumpstop.io.case.fields.quantities import read_number
+from bumpstop.io.case.fields.quantities import WITH_UNIT, read_number
 from bumpstop.io.case.fields.words import choice, read_node
 from bumpstop.io.units import Dimension
 from bumpstop.structure.dofs import DOFS, Dof
 
-__all__ = ["Curve", "Deformations", "FrictionCoefficients", "Sliding", "Slopes"]
+__all__ = [
+    "ContactStiffness",
+    "Curve",
+    "Deformations",
+    "FrictionCoefficients",
+    "Sliding",
+    "Slopes",
+    "contact_stiffness",
+]
 
 _COEFFICIENT = Dimension("a pure number", "", "0.2")
 _DEFORMATION = Dimension("a length", "m", "2 mm")
 _FORCE = Dimension("a force", "N", "5 kN")
 _SLOPE = Dimension("a stiffness", "N/m", "18 kN/m")
 _COEFFICIENTS = ("static", "dynamic")
+
+
+class _WithUnit(float):
+    """A number that was written with its unit."""
+
+
+def contact_stiffness(value: float, exponent: float) -> float:
+    """Return the stiffness of a stop whose force goes with a power of its depth.
+
+    Raises
+    ------
+    InputError
+        If it was written in N/m and that is not its unit.
+
+    Examples
+    --------
+    >>> contact_stiffness(2e9, 1.5)
+    2000000000.0
+    """
+    if exponent != 1.0 and isinstance(value, _WithUnit):
+        what = f"must be a number without a unit: it is in N/m^{exponent:g}"
+        raise InputError(what, key="stiffness", value=float(value))
+    return float(value)
+
+
+def _read_contact_stiffness(value: object) -> float:
+    """Read a number, and keep in mind whether it has a unit: an exponent changes that."""
+    number = read_number(value, _SLOPE, above=0)
+    return _WithUnit(number) if isinstance(value, str) else number
 
 
 def _read_friction(value: object) -> float | dict[str, float]:
@@ -70,6 +107,10 @@ def _read_point(value: object) -> tuple[float, float]:
     return read_number(value[0], _DEFORMATION), read_number(value[1], _FORCE)
 
 
+_STIFFNESS = {
+    "anyOf": [{"type": "number", "exclusiveMinimum": 0}, {"type": "string", "pattern": WITH_UNIT}],
+    "examples": [_SLOPE.example],
+}
 _ONE: dict[str, Any] = {"type": ["number", "string"]}
 _LIST: dict[str, Any] = {"type": "array", "items": _ONE, "minItems": 1}
 _DIRECTION = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
@@ -87,6 +128,7 @@ _FRICTION = {
     ]
 }
 
+ContactStiffness = Annotated[float, Plain(_read_contact_stiffness, _STIFFNESS)]
 FrictionCoefficients = Annotated[float | dict[str, float], Plain(_read_friction, _FRICTION)]
 Sliding = Annotated[
     tuple[float, float, float] | dict[Dof, float],

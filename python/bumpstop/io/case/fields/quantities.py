@@ -10,6 +10,7 @@ from bumpstop.io.case.fields.plain import Plain, read_list
 from bumpstop.io.units import Dimension, read_quantity
 
 __all__ = [
+    "WITH_UNIT",
     "Acceleration3",
     "Angle",
     "AngularRate",
@@ -23,6 +24,7 @@ __all__ = [
     "Frequencies",
     "Frequency",
     "Frequency2",
+    "InverseSpeed",
     "Length",
     "Length2",
     "Length3",
@@ -49,7 +51,7 @@ __all__ = [
 ]
 
 _WITHOUT_UNIT = r"^\s*[-+]?(\d+\.?\d*|\.\d+)"
-_WITH_UNIT = _WITHOUT_UNIT + r"(?![eE][-+]?\d+\s*$)([eE][-+]?\d+)?\s*[^\d\s.]"
+WITH_UNIT = _WITHOUT_UNIT + r"(?![eE][-+]?\d+\s*$)([eE][-+]?\d+)?\s*[^\d\s.]"
 """How a number begins, and one that a unit follows, for editors; `read_quantity` knows the rest."""
 
 _NUMBER = Dimension("a pure number", "", "0.3")
@@ -64,6 +66,7 @@ _STIFFNESS = Dimension("a stiffness", "N/m", "18 kN/m")
 _DAMPING = Dimension("a damping constant", "N*s/m", "20 N*s/m")
 _ACCELERATION = Dimension("an acceleration", "m/s^2", "386 in/s^2")
 _VELOCITY = Dimension("a velocity", "m/s", "10 in/s")
+_INVERSE_SPEED = Dimension("a time a length", "s/m", "0.2 s/m")
 _ANGLE = Dimension("an angle", "rad", "90 deg")
 _ANGULAR_RATE = Dimension("an angular rate", "rad/s", "30 deg/s")
 _TIME = Dimension("a time", "s", "20 ms")
@@ -136,7 +139,7 @@ def _quantity(
 
     bounds = {"exclusiveMinimum": above, "minimum": least}
     number = {"type": "number"} | {key: bound for key, bound in bounds.items() if bound is not None}
-    text = {"type": "string", "pattern": _WITH_UNIT if dimension.unit else _WITHOUT_UNIT}
+    text = {"type": "string", "pattern": WITH_UNIT if dimension.unit else _WITHOUT_UNIT}
     return Plain(read, {"anyOf": [number, text], "examples": [dimension.example]})
 
 
@@ -182,6 +185,7 @@ Density = Annotated[float, _quantity(_DENSITY, above=0)]
 Area = Annotated[float, _quantity(_AREA, above=0)]
 AreaMoment = Annotated[float, _quantity(_AREA_MOMENT, above=0)]
 LineMass = Annotated[float, _quantity(_LINE_MASS, least=0)]
+InverseSpeed = Annotated[float, _quantity(_INVERSE_SPEED, least=0)]
 AngularRate = Annotated[float, _quantity(_ANGULAR_RATE)]
 Force = Annotated[float, _quantity(_FORCE)]
 Mass = Annotated[float, _quantity(_MASS, least=0)]

@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from bumpstop.io.case.fields.counts import Switch
-from bumpstop.io.case.fields.quantities import PositiveTime
+from bumpstop.io.case.fields.quantities import PositiveNumber, PositiveTime, Ratio
 from bumpstop.io.case.fields.words import choice
 from bumpstop.io.case.tables.table import Field, Table
 from bumpstop.simulate import METHODS
@@ -23,6 +23,15 @@ class RunTable(Table):
     )
     beyond_stability_limit: Switch = Field(
         default=False, description="Allow a step above the stability limit of a fixed-step method"
+    )
+    rtol: PositiveNumber | None = Field(
+        default=None,
+        description="Relative tolerance of the adaptive methods, 1e-8 where left out; the others "
+        "do not use it",
+    )
+    atol: Ratio | None = Field(
+        default=None,
+        description="Absolute tolerance of the adaptive methods, in m and m/s of the modal motion",
     )
     sample: PositiveTime | None = Field(
         default=None,

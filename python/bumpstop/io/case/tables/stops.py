@@ -2,8 +2,16 @@
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from bumpstop.io.case.fields.laws import FrictionCoefficients, Sliding
-from bumpstop.io.case.fields.quantities import DampingConstant, Length, Number3, Ratio, Stiffness
+from bumpstop.io.case.fields.laws import ContactStiffness, FrictionCoefficients, Sliding
+from bumpstop.io.case.fields.quantities import (
+    DampingConstant,
+    InverseSpeed,
+    Length,
+    Number3,
+    PositiveNumber,
+    Ratio,
+    Stiffness,
+)
 from bumpstop.io.case.fields.words import Node, OneDof, choice
 from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.table import Field, Table
@@ -19,7 +27,8 @@ __all__ = ["StopTable"]
 class StopTable(Table):
     """A spring and damper that push a node back once it has crossed the gap; they never pull.
 
-    With ``restitution`` instead of a stiffness the stop is rigid.
+    With ``restitution`` instead of a stiffness the stop is rigid; with an ``exponent``, or
+    ``hunt_crossley``, its force is a power of the depth.
     """
 
     node: Node | None = Field(default=None, description="The node that it stops")
@@ -40,8 +49,20 @@ class StopTable(Table):
     gap: Length = Field(
         default=0.0, description="Distance from the undeformed structure to the obstacle, in m"
     )
-    stiffness: Stiffness | None = Field(
-        default=None, description="Contact stiffness, in N/m; every stop that is not rigid needs it"
+    stiffness: ContactStiffness | None = Field(
+        default=None,
+        description="Contact stiffness, in N/m; every stop that is not rigid needs it. With an "
+        "exponent n a number in N/m^n: the force at a depth of 1 m",
+    )
+    exponent: PositiveNumber | None = Field(
+        default=None,
+        description="Power of the depth that the force goes with, at least 1; 1.5 for bodies that "
+        "touch in a point (Hertz). Such a stop has neither damping nor friction",
+    )
+    hunt_crossley: InverseSpeed | None = Field(
+        default=None,
+        description="Damping coefficient of Hunt and Crossley, in s/m, by which the rate of the "
+        "depth multiplies the force; the exponent is 1.5 where left out",
     )
     restitution: Ratio | None = Field(
         default=None,
