@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from bumpstop.modal.substructure.reduced import ReducedComponent
     from bumpstop.modal.substructure.rotation import Rotation
     from bumpstop.post.contacts import contact_impacts
+    from bumpstop.post.lyapunov import LyapunovExponents, lyapunov_exponents
     from bumpstop.post.poincare import (
         Periodicity,
         bifurcation,
@@ -131,6 +132,7 @@ __all__ = [
     "KwuEpriWear",
     "LineForce",
     "LowestModes",
+    "LyapunovExponents",
     "Material",
     "Matrices",
     "ModalBasis",
@@ -188,6 +190,7 @@ __all__ = [
     "identify_modes",
     "impact_section",
     "load_case",
+    "lyapunov_exponents",
     "participation",
     "periodicity",
     "plot",
@@ -239,6 +242,7 @@ _HOME = {
     "KwuEpriWear": "post.wear",
     "LineForce": "loads.line_force",
     "LowestModes": "modal.selection",
+    "LyapunovExponents": "post.lyapunov",
     "Material": "structure.material",
     "Matrices": "structure.matrices",
     "ModalBasis": "modal.basis",
@@ -296,6 +300,7 @@ _HOME = {
     "identify_modes": "io.modes",
     "impact_section": "post.poincare",
     "load_case": "io.case",
+    "lyapunov_exponents": "post.lyapunov",
     "participation": "modal.masses",
     "periodicity": "post.poincare",
     "plot": "report.arrays",
