@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from bumpstop.structure.dofs import DOFS
@@ -18,6 +19,7 @@ __all__ = [
     "Quantity",
     "dof_units",
     "modal_attributes",
+    "plain_name",
 ]
 
 
@@ -154,3 +156,12 @@ def modal_attributes(quantity: str, *, unit_mass: bool) -> dict[str, str]:
         return QUANTITIES[quantity].attributes
     long_name = QUANTITIES[quantity].long_name
     return {"long_name": f"{long_name}, in the scale of the vectors given"}
+
+
+def plain_name(name: str) -> str:
+    """Return a name of letters, digits and underscores, as the CF conventions want them.
+
+    >>> plain_name("displacement_AB@0.462_dy")
+    'displacement_AB_0_462_dy'
+    """
+    return re.sub(r"\W", "_", name, flags=re.ASCII)

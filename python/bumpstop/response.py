@@ -422,6 +422,27 @@ class Response:
 
         write_netcdf(self, path, title=title, case=case, variant=variant)
 
+    def export(self, path: str | PathLike[str], form: str | None = None) -> None:
+        """Write the response, tabulated at its times, in a format that other programs read.
+
+        Parameters
+        ----------
+        path
+            File to write; a file of that name is replaced once the new one is complete.
+        form
+            ``netcdf``, ``csv``, ``parquet``, ``uff`` (universal file), ``vtk`` (ParaView),
+            ``mat`` (MATLAB) or ``wav`` (sound); as the file's ending says where left out.
+
+        Raises
+        ------
+        InputError
+            If the format is unknown, the response has nothing that it holds, a package for it
+            is missing, or the file cannot be written there.
+        """
+        from bumpstop.io.export import export
+
+        export(self, path, form)
+
     def _instants(self, times: ArrayLike | None) -> FloatArray:
         return self.times if times is None else _checked_times(times, self.problem.duration)
 

@@ -566,3 +566,56 @@ def test_a_bearing_with_cross_stiffness_runs(call: Output, tmp_path: Path) -> No
     status, output, error = call("run", str(case), "--json")
     assert (status, error) == (0, "")
     assert json.loads(output)["variants"][0]["energy_residual"] < 1e-12
+
+
+def test_exports(call: Output, tmp_path: Path) -> None:
+    options = ["--out", str(tmp_path), "--no-report"]
+    status, _, error = call(*RUN, *options, "--export", "csv,wav")
+    assert (status, error) == (0, "")
+    for variant in ("soft", "stiff"):
+        names = sorted(path.name for path in (tmp_path / variant).iterdir())
+        assert names == ["response.csv", "response.nc", "response.wav"]
+    again = call(*RUN, *options, "--export", "csv")
+    left = "of an earlier run, left as they were: soft/response.wav, stiff/response.wav"
+    assert left in again[1]
+
+
+def test_exports_that_the_case_asks_for(call: Output, tmp_path: Path) -> None:
+    text = SDNL32.read_text().replace("[run]", '[run]\nexport = ["uff", "mat"]')
+    (tmp_path / "case.toml").write_text(text + '\n[variants.bare]\n"run.export" = []\n')
+    status, _, error = call("run", str(tmp_path / "case.toml"), "--out", str(tmp_path / "out"))
+    assert (status, error) == (0, "")
+    found = {path.relative_to(tmp_path / "out").as_posix() for path in tmp_path.glob("out/*/*")}
+    files = ("response.nc", "response.uff", "response.mat")
+    assert found == {f"{name}/{file}" for name in ("soft", "stiff") for file in files} | {
+        "bare/response.nc"
+    }
+    assert call("run", str(tmp_path / "case.toml"))[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--export", "csv"], "error: --export: needs a folder to write to; give --out, too"),
+        (["--export", "csv,exel", "--out", "x"], "error: --export: unknown"),
+        (["--export", "", "--out", "x"], "error: --export: unknown"),
+    ],
+)
+def test_exports_that_cannot_be(
+    options: list[str], message: str, call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    status, output, error = call("run", str(SDNL32), *options)
+    assert (status, output) == (2, "")
+    assert error.startswith(message)
+    assert error.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_export_that_fails_leaves_nothing(call: Output, tmp_path: Path) -> None:
+    text = SDNL32.read_text().replace("[run]", '[run]\nexport = ["exel"]')
+    (tmp_path / "case.toml").write_text(text)
+    status, _, error = call("run", str(tmp_path / "case.toml"), "--out", str(tmp_path / "out"))
+    assert status == 2
+    assert "run.export" in error
+    assert not (tmp_path / "out").exists()

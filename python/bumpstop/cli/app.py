@@ -131,6 +131,8 @@ def _run(parser: ArgumentParser) -> Callable[[Namespace], int]:
     _takes_case(parser)
     _takes_method(parser)
     _takes_folder(parser, None, "Write DIR/<variant>/response.nc and DIR/report.html.")
+    told = "Write responses in these formats, too: csv, parquet, uff, vtk, mat, wav."
+    parser.add_argument("--export", metavar="F,F", help=told)
     _takes_json(parser)
     parser.add_argument(
         "--report", action=BooleanOptionalAction, default=True, help="Write the report or not."
@@ -143,6 +145,7 @@ def _run(parser: ArgumentParser) -> Callable[[Namespace], int]:
             given.case,
             stepping=_stepping(given),
             out=given.out,
+            export=given.export,
             json=given.json,
             report=given.report,
         )

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from bumpstop.cli.solve import CaseResult, frequency_checks
 from bumpstop.cli.staging import all_or_nothing
+from bumpstop.io import FORMATS
 from bumpstop.io.case import Case
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = [
     "MODES",
     "REPORT",
+    "Exports",
     "older_outputs",
     "output_names",
     "write_convergence",
@@ -26,23 +28,26 @@ __all__ = [
 
 MODES = "modes.html"
 REPORT = "report.html"
-RESPONSE = "response.nc"
+Exports: TypeAlias = Mapping[str, Sequence[str]]
+"""Formats in which the response of each variant is written beside NetCDF."""
 
 
-def output_names(case: Case, *, report: bool) -> list[str]:
+def output_names(case: Case, exports: Exports, *, report: bool) -> list[str]:
     """Return what a run of a case writes: the paths of its files within the folder."""
-    return [f"{name}/{RESPONSE}" for name in case.problems] + [REPORT] * report
+    names = [f"{name}/{file}" for name in case.problems for file in _response_files(name, exports)]
+    return names + [REPORT] * report
 
 
 def older_outputs(folder: Path, written: Sequence[str]) -> list[str]:
     """Return outputs in a folder that are not those just written: they are of another run."""
-    found = [*folder.glob(f"*/{RESPONSE}"), *folder.glob(REPORT)]
+    patterns = [f"*/response{ending}" for ending in FORMATS.values()]
+    found = [path for pattern in (*patterns, REPORT) for path in folder.glob(pattern)]
     names = [path.relative_to(folder).as_posix() for path in found]
     return sorted(set(names) - set(written))
 
 
-def write_outputs(result: CaseResult, folder: Path, *, report: bool) -> None:
-    """Write ``<variant>/response.nc`` of each variant that ran, and ``report.html``.
+def write_outputs(result: CaseResult, folder: Path, exports: Exports, *, report: bool) -> None:
+    """Write ``<variant>/response.nc`` of each variant that ran, exports, and ``report.html``.
 
     Raises
     ------
@@ -52,14 +57,24 @@ def write_outputs(result: CaseResult, folder: Path, *, report: bool) -> None:
     with all_or_nothing(folder) as staging:
         for name, response in result.responses.items():
             (staging / name).mkdir()
+            first, *others = _response_files(name, exports)
             response.to_netcdf(
-                staging / name / RESPONSE,
+                staging / name / first,
                 title=result.case.title,
                 case=result.case.name,
                 variant=name,
             )
+            for file in others:
+                response.export(staging / name / file)
         if report:
             _write_report(result, staging)
+
+
+def _response_files(variant: str, exports: Exports) -> list[str]:
+    """Return the files of a variant's response, NetCDF first."""
+    return [
+        f"response{FORMATS[form]}" for form in dict.fromkeys(["netcdf", *exports.get(variant, ())])
+    ]
 
 
 def write_report_alone(result: CaseResult, folder: Path) -> None:

@@ -4,33 +4,54 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from bumpstop.arguments import one_of
 from bumpstop.cli.console import print_json
-from bumpstop.cli.outputs import output_names, write_outputs
+from bumpstop.cli.outputs import Exports, output_names, write_outputs
 from bumpstop.cli.progress import progress_display
 from bumpstop.cli.records import case_record
 from bumpstop.cli.solve import Stepping, solve_case
 from bumpstop.cli.staging import check_writable
 from bumpstop.cli.summary import print_summary, print_written
-from bumpstop.io.case import load_case
+from bumpstop.errors import InputError
+from bumpstop.io import FORMATS
+from bumpstop.io.case import Case, load_case
 
 __all__ = ["run_command"]
 
 
 def run_command(
-    path: Path, *, stepping: Stepping, out: Path | None, json: bool, report: bool
+    path: Path,
+    *,
+    stepping: Stepping,
+    out: Path | None,
+    export: str | None,
+    json: bool,
+    report: bool,
 ) -> int:
     """Simulate a case, write what was asked for and say how it compares; return the status."""
+    if export is not None and out is None:
+        raise InputError("needs a folder to write to", key="--export", hint="give --out, too")
     case = load_case(path)
+    exports = _exports(case, export)
+    names = output_names(case, exports, report=report)
     if out is not None:
-        check_writable(out, output_names(case, report=report))
+        check_writable(out, names)
     result = solve_case(case, stepping, progress_display)
     record = case_record(result)
     if out is not None:
-        write_outputs(result, out, report=report)
+        write_outputs(result, out, exports, report=report)
     if json:
         print_json(record)
     else:
         print_summary(result, record)
         if out is not None:
-            print_written(out, output_names(case, report=report))
+            print_written(out, names)
     return 0 if result.passed else 1
+
+
+def _exports(case: Case, asked: str | None) -> Exports:
+    """Return the formats of each variant: those asked for, or those that the case says."""
+    if asked is None:
+        return case.exports
+    formats = [one_of("--export", form, tuple(FORMATS)) for form in asked.split(",")]
+    return dict.fromkeys(case.problems, formats)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from bumpstop.io.modes import ModeSet, read_modes
 
 __all__ = [
+    "FORMATS",
     "LineMesh",
     "ModeSet",
     "read_matrices",
@@ -22,6 +23,17 @@ __all__ = [
     "read_modes",
     "write_matrices",
 ]
+
+FORMATS = {
+    "netcdf": ".nc",
+    "csv": ".csv",
+    "parquet": ".parquet",
+    "uff": ".uff",
+    "vtk": ".vtkhdf",
+    "mat": ".mat",
+    "wav": ".wav",
+}
+"""What a response can be written as, and the ending of such files."""
 
 __getattr__ = lazy_names(
     __name__,

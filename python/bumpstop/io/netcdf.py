@@ -22,6 +22,7 @@ from bumpstop.quantities import (
     STOP_ENERGIES,
     dof_units,
     modal_attributes,
+    plain_name,
 )
 from bumpstop.response import MOTIONS
 from bumpstop.structure.dofs import Dof
@@ -161,7 +162,7 @@ def _outputs(response: Response, motions: list[FloatArray]) -> Iterator[Variable
                 "node": node,
                 "dof": dof,
             }
-            name = _plain(f"{quantity}_{node}_{dof}")
+            name = plain_name(f"{quantity}_{node}_{dof}")
             values = along(row, motion)
             if response.problem.supports_move:
                 values = response.sample(quantity, node, dof)
@@ -171,15 +172,6 @@ def _outputs(response: Response, motions: list[FloatArray]) -> Iterator[Variable
 def _stopped(response: Response) -> list[Dof]:
     """Return the dofs along which the stops push."""
     return [dof for law in response.problem.laws for dof in law.coordinate.dofs]
-
-
-def _plain(name: str) -> str:
-    """Return a name of letters, digits and underscores, as the CF conventions want them.
-
-    >>> _plain("displacement_AB@0.462_dy")
-    'displacement_AB_0_462_dy'
-    """
-    return re.sub(r"\W", "_", name, flags=re.ASCII)
 
 
 def _nodes(response: Response, model: LinearModel, motion: FloatArray) -> Iterator[Variable]:

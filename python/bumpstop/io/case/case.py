@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, TypedDict
@@ -54,6 +54,8 @@ class Case:
         How the time of each problem is integrated.
     method, method_options
         The same for the case without its variants.
+    exports
+        Formats in which the responses of each variant are written beside NetCDF.
     documents
         What the file says of each variant, as TOML has it: what finer models are made of.
     """
@@ -68,4 +70,5 @@ class Case:
     methods: dict[str, Method]
     method: str
     method_options: MethodOptions
+    exports: Mapping[str, Sequence[str]] = field(default_factory=dict)
     documents: Mapping[str, dict[str, Any]] = field(default_factory=dict, repr=False)

@@ -81,6 +81,7 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
         },
         method=method.name,
         method_options=method.options,
+        exports={variant: tables.run.export for variant, tables in variants.items() if tables.run},
         documents=documents,
     )
 

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from bumpstop.arguments import did_you_mean
 from bumpstop.errors import InputError
+from bumpstop.io import FORMATS
 from bumpstop.io.case.fields.plain import Plain, read_list
 from bumpstop.structure.dofs import DOFS
 
@@ -15,6 +16,7 @@ __all__ = [
     "BeamEnds",
     "BeamName",
     "Dofs",
+    "Formats",
     "Group",
     "LinkedNodes",
     "LoadNames",
@@ -122,6 +124,10 @@ def _read_units(value: object) -> list[str]:
     return units
 
 
+def _read_formats(value: object) -> list[str]:
+    return [] if value == [] else read_list(value, choice(*FORMATS).read, "formats")
+
+
 _STRING = {"type": "string"}
 _STRINGS = {"type": "array", "items": _STRING, "minItems": 1}
 
@@ -140,5 +146,8 @@ LoadNames = Annotated[
     list[str] | str, Plain(_read_load_names, {"anyOf": [{"const": "all"}, _STRINGS]})
 ]
 Units = Annotated[list[str], Plain(_read_units, {**_STRINGS, "minItems": 2, "maxItems": 2})]
+Formats = Annotated[
+    list[str], Plain(_read_formats, {**_STRINGS, "items": {"enum": list(FORMATS)}, "minItems": 0})
+]
 OneDof = Annotated[str, choice(*DOFS)]
 Dofs = Annotated[list[str], Plain(_read_dofs, {**_STRINGS, "items": {"enum": list(DOFS)}})]

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from bumpstop.io.case.fields.counts import Switch
 from bumpstop.io.case.fields.quantities import PositiveNumber, PositiveTime, Ratio
-from bumpstop.io.case.fields.words import choice
+from bumpstop.io.case.fields.words import Formats, choice
 from bumpstop.io.case.tables.table import Field, Table
 from bumpstop.simulate import METHODS
 
@@ -36,4 +36,7 @@ class RunTable(Table):
     sample: PositiveTime | None = Field(
         default=None,
         description="Interval of the tabulated results, in s; it does not affect the solution",
+    )
+    export: Formats = Field(
+        default=[], description="Formats in which `--out` writes responses beside NetCDF"
     )
