@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from bumpstop.continued import continued
     from bumpstop.errors import BumpstopError, ComputationError, InputError
     from bumpstop.io.case import Case, load_case
     from bumpstop.io.matrices import read_matrices, write_matrices
@@ -30,8 +31,10 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.loads.line_force import LineForce
+    from bumpstop.loads.nodal_state import NodalState
     from bumpstop.loads.product import Product
     from bumpstop.loads.random_signal import RandomSignal
+    from bumpstop.loads.static_state import StaticState
     from bumpstop.loads.support_motion import SupportMotion
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
@@ -140,6 +143,7 @@ __all__ = [
     "ModesAround",
     "ModesInBand",
     "NodalForce",
+    "NodalState",
     "PadScar",
     "Participation",
     "Periodicity",
@@ -165,6 +169,7 @@ __all__ = [
     "Spring",
     "SpringLaw",
     "StaticShapes",
+    "StaticState",
     "Stop",
     "StructuralDamping",
     "Structure",
@@ -182,6 +187,7 @@ __all__ = [
     "complex_modes",
     "contact_impacts",
     "contact_statistics",
+    "continued",
     "converge",
     "craig_bampton",
     "envelope",
@@ -251,6 +257,7 @@ _HOME = {
     "ModesInBand": "modal.selection",
     "NodalForce": "loads.force",
     "PadScar": "post.scars",
+    "NodalState": "loads.nodal_state",
     "Participation": "modal.masses",
     "Periodicity": "post.poincare",
     "Placed": "modal.substructure.placed",
@@ -275,6 +282,7 @@ _HOME = {
     "Spring": "structure.spring",
     "SpringLaw": "laws.spring",
     "StaticShapes": "modal.static_shapes",
+    "StaticState": "loads.static_state",
     "Stop": "laws.stop",
     "StructuralDamping": "modal.damping",
     "Structure": "structure.structure",
@@ -292,6 +300,7 @@ _HOME = {
     "complex_modes": "modal.oscillation",
     "contact_impacts": "post.contacts",
     "contact_statistics": "post.statistics",
+    "continued": "continued",
     "converge": "study.convergence",
     "craig_bampton": "modal.substructure.craig_bampton",
     "envelope": "post.signals",

@@ -334,3 +334,46 @@ def test_supports_move_in_either_frame(tmp_path: Path) -> None:
     ):
         with pytest.raises(bs.InputError, match=message):
             case(tmp_path, wrong)
+
+
+def test_a_beam_is_pushed_onto_its_stop_and_let_go(tmp_path: Path) -> None:
+    text = (
+        "[basis]\nmodes = 3\n"
+        '[loads.push]\ntype = "force"\nnode = "B"\nforce = [0, -500, 0]\n'
+        '[loads.weight]\ntype = "gravity"\nacceleration = [0, -9.81, 0]\n'
+        '[stops.wall]\nnode = "B"\nnormal = [0, 1, 0]\ngap = "2 mm"\nstiffness = 2e5\n'
+        '[initial.static]\nrelease = ["push"]\n'
+    )
+    (tmp_path / "case.toml").write_text(BEAM + text)
+    problem = bs.load_case(tmp_path / "case.toml").problems["base"]
+    assert [load.name for load in problem.loads] == ["weight"]
+    assert isinstance(problem.initial, bs.StaticState)
+    assert [load.name for load in problem.initial.loads] == ["push", "weight"]  # type: ignore[attr-defined]  # as they were given
+    assert bs.simulate(problem).sample("stop_force", "wall", times=[0.0])[0] > 0.0
+    for wrong, message in (
+        (text.replace('["push"]', '["pull"]'), r"initial\.static\.release: unknown release"),
+        (text.replace("release =", "loads ="), None),
+        (text + 'loads = ["pull"]\n', r"initial\.static\.loads: unknown loads"),
+        (text + "[initial.modal]\n", r"initial: static and modal exclude each other"),
+    ):
+        (tmp_path / "case.toml").write_text(BEAM + wrong)
+        if message is None:
+            assert len(bs.load_case(tmp_path / "case.toml").problems["base"].loads) == 2
+            continue
+        with pytest.raises(bs.InputError, match=message):
+            bs.load_case(tmp_path / "case.toml")
+
+
+def test_nodes_start_with_displacements_and_velocities(tmp_path: Path) -> None:
+    text = (
+        "[basis]\nmodes = 18\n[initial.nodal]\n"
+        'displacement = { B = { dy = "1 mm" } }\nvelocity = { "AB.1" = { dz = 0.2 } }\n'
+    )
+    (tmp_path / "case.toml").write_text(BEAM + text)
+    problem = bs.load_case(tmp_path / "case.toml").problems["base"]
+    found = bs.simulate(problem)
+    assert found.sample("displacement", "B", "dy", times=[0.0])[0] == pytest.approx(1e-3)
+    assert found.sample("velocity", "AB.1", "dz", times=[0.0])[0] == pytest.approx(0.2)
+    (tmp_path / "case.toml").write_text(BEAM + text.replace("{ B =", "{ C ="))
+    with pytest.raises(bs.InputError, match=r"initial\.nodal\.displacement: unknown node"):
+        bs.load_case(tmp_path / "case.toml")

@@ -172,6 +172,11 @@ class SpringLaw:
             raise InputError("no mode deforms this spring", key="node", value=self.node)
         return row
 
+    def static_force(self, place: float) -> tuple[float, float]:
+        """Return the force in N on the structure, ``place`` m along, at rest, and its slope."""
+        segment = int(np.searchsorted(self.breaks, place, side="right"))
+        return -float(self.force([place])[0]), -self.stiffness[segment]
+
     def core(self, basis: ModalBasis) -> _core.Spring:
         """Return the spring as the core sees it; see `row`."""
         from bumpstop import _core

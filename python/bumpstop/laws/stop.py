@@ -135,6 +135,11 @@ class Stop(Contact):
 
         return sliding_row(basis, self.coordinate, self.sliding)
 
+    def static_force(self, place: float) -> tuple[float, float]:
+        """Return the push in N at rest, ``place`` m along the normal, and its slope in N/m."""
+        distance = self.gap + place
+        return (-self.stiffness * distance, -self.stiffness) if distance < 0.0 else (0.0, 0.0)
+
     def core(self, basis: ModalBasis) -> _core.Stop | _core.FrictionStop:
         """Return the stop as the core sees it; see `row` and `sliding_row`."""
         from bumpstop import _core

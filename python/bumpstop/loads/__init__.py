@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.loads.line_force import LineForce
+    from bumpstop.loads.nodal_state import NodalState
     from bumpstop.loads.product import Product
     from bumpstop.loads.random_signal import RandomSignal
+    from bumpstop.loads.static_state import StaticState
     from bumpstop.loads.support_motion import SupportMotion
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
@@ -32,12 +34,14 @@ __all__ = [
     "LineForce",
     "ModalState",
     "NodalForce",
+    "NodalState",
     "Polynomial",
     "Product",
     "RandomSignal",
     "RigidRotation",
     "RigidTranslation",
     "SpectralDensity",
+    "StaticState",
     "SupportMotion",
     "Sweep",
     "TimeTable",
@@ -55,12 +59,14 @@ __getattr__ = lazy_names(
         "LineForce": "line_force",
         "ModalState": "initial",
         "NodalForce": "force",
+        "NodalState": "nodal_state",
         "Polynomial": "time",
         "Product": "product",
         "RandomSignal": "random_signal",
         "RigidRotation": "initial",
         "RigidTranslation": "translation",
         "SpectralDensity": "density",
+        "StaticState": "static_state",
         "SupportMotion": "support_motion",
         "Sweep": "sweep",
         "TimeTable": "time",

@@ -298,7 +298,7 @@ def _initial(initial: InitialState | None) -> str:
     if isinstance(initial, ModalState):
         given = [key for key in ("displacement", "velocity") if getattr(initial, key) is not None]
         return f"given modal {' and '.join(given) or 'state'}"
-    return type(initial).__name__
+    return getattr(initial, "words", type(initial).__name__)
 
 
 def _gauge(gauge: Gauge) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bumpstop.errors import InputError
 from bumpstop.io.case.build.basis import built_basis, load_tables, static_places
 from bumpstop.io.case.build.gauges import built_gauges
-from bumpstop.io.case.build.initial import built_initial, state_key
+from bumpstop.io.case.build.initial import built_initial, run_loads, state_key
 from bumpstop.io.case.build.laws import built_laws
 from bumpstop.io.case.build.loads import BASE_MOTION, built_loads
 from bumpstop.io.case.build.source import SOURCES, require_one_source
@@ -72,12 +72,13 @@ class Builder:
             of the file.
         """
         basis = self.basis(case)
-        initial = built_initial(case.initial)
+        laws, loads = built_laws(case, self._folder), built_loads(case, self._folder)
+        initial, loads = built_initial(case.initial, laws, loads), run_loads(case.initial, loads)
         with keyed(renamed=_renamed(case)):
             return Problem(
                 basis,
-                laws=built_laws(case, self._folder),
-                loads=built_loads(case, self._folder),
+                laws=laws,
+                loads=loads,
                 initial=initial,
                 duration=run.duration,
                 sample=run.sample,

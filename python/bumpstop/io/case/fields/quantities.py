@@ -44,6 +44,7 @@ __all__ = [
     "Stiffness",
     "Time",
     "Times",
+    "Velocity",
     "Velocity3",
     "Written",
     "WrittenList",
@@ -204,6 +205,7 @@ Length2 = Annotated[tuple[float, float], _vector(_LENGTH, length=2)]
 Length3 = Annotated[tuple[float, float, float], _vector(_LENGTH)]
 Number3 = Annotated[tuple[float, float, float], _vector(_NUMBER)]
 Acceleration3 = Annotated[tuple[float, float, float], _vector(_ACCELERATION)]
+Velocity = Annotated[float, _quantity(_VELOCITY)]
 Velocity3 = Annotated[tuple[float, float, float], _vector(_VELOCITY)]
 AngularRate3 = Annotated[tuple[float, float, float], _vector(_ANGULAR_RATE)]
 LineForce3 = Annotated[tuple[float, float, float], _vector(_LINE_FORCE)]

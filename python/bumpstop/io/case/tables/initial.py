@@ -1,10 +1,23 @@
 """``[initial]``."""
 
-from bumpstop.io.case.fields.quantities import AngularRate3, Numbers, Velocity3
-from bumpstop.io.case.fields.words import BeamName, Node
+from bumpstop.io.case.fields.quantities import (
+    AngularRate3,
+    Length,
+    Numbers,
+    Velocity,
+    Velocity3,
+)
+from bumpstop.io.case.fields.words import BeamName, LoadNames, Node, OneDof
 from bumpstop.io.case.tables.table import Field, Table
 
-__all__ = ["InitialTable", "ModalStateTable", "RotationTable", "TranslationTable"]
+__all__ = [
+    "InitialTable",
+    "ModalStateTable",
+    "NodalStateTable",
+    "RotationTable",
+    "StaticTable",
+    "TranslationTable",
+]
 
 
 class RotationTable(Table):
@@ -32,6 +45,29 @@ class ModalStateTable(Table):
     velocity: Numbers | None = Field(default=None, description="One a mode, in m kg^0.5/s")
 
 
+class StaticTable(Table):
+    """Equilibrium at rest under loads, with stops and springs that take part."""
+
+    loads: LoadNames = Field(
+        default="all", description='The loads, as they are at t = 0: by name, or "all"'
+    )
+    release: LoadNames = Field(
+        default=[],
+        description='Which loads let go at t = 0 and are no loads of the run: by name, or "all"',
+    )
+
+
+class NodalStateTable(Table):
+    """Displacements and velocities of nodes; zero where nothing is said."""
+
+    displacement: dict[Node, dict[OneDof, Length]] | None = Field(
+        default=None, description="Such as { B = { dy = 0.001 } }, in m and rad"
+    )
+    velocity: dict[Node, dict[OneDof, Velocity]] | None = Field(
+        default=None, description="Such as { B = { dy = 0.2 } }, in m/s and rad/s"
+    )
+
+
 class InitialTable(Table):
     """How the structure moves at t = 0; at rest and undeformed where left out."""
 
@@ -39,4 +75,6 @@ class InitialTable(Table):
     translation: TranslationTable | None = Field(
         default=None, description="A velocity along a straight line"
     )
+    static: StaticTable | None = Field(default=None, description="An equilibrium under loads")
+    nodal: NodalStateTable | None = Field(default=None, description="A state given node by node")
     modal: ModalStateTable | None = Field(default=None, description="A state given mode by mode")

@@ -1,0 +1,144 @@
+"""continued: a run goes on where another one ended."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, positive
+from bumpstop.errors import InputError
+from bumpstop.loads.initial import ModalState
+from bumpstop.loads.load import ForceComponent
+from bumpstop.loads.shifted import Shifted
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+    from bumpstop.problem import Law, Load, Problem
+    from bumpstop.response import Response
+    from bumpstop.structure.model import LinearModel
+
+__all__ = ["continued"]
+
+_FREE = ("open", "released")
+
+
+def continued(response: Response, *, duration: float, at: float | None = None) -> Problem:
+    """Return the problem of a response from one of its instants on, its loads going on in time.
+
+    The instant is the new problem's t = 0. Its motion is that of an unbroken run but for the
+    rounding of displacement, velocity and shifted times, which impacts make grow like any other
+    small difference; it is not the same to the bit.
+
+    Parameters
+    ----------
+    response
+        A response.
+    duration
+        For how long to go on, in s.
+    at
+        The instant in s; the end of the response where left out.
+
+    Raises
+    ------
+    InputError
+        If a contact rubs at that instant: where its spring is anchored cannot be given to a new
+        run; or if supports move and results are told from the ground.
+
+    Examples
+    --------
+    >>> import bumpstop as bs
+    >>> basis = bs.ModalBasis.from_modes(frequency=[2.0], shapes={("P", "dx"): [1.0]})
+    >>> start = bs.ModalState(velocity=[1.0])
+    >>> first = bs.simulate(bs.Problem(basis, initial=start, duration=0.25))
+    >>> rest = bs.simulate(bs.continued(first, duration=0.25))
+    >>> print(f"{rest.sample('displacement', 'P', 'dx', times=[0.25])[0]:.12f}")
+    -0.000000000000
+    """
+    problem = response.problem
+    instant = problem.duration if at is None else float(at)
+    if not 0.0 <= instant <= problem.duration:
+        what = f"must be within the run, 0 to {problem.duration:g} s"
+        raise InputError(what, key="at", value=at)
+    for law in problem.laws:
+        _refuse_memory(response, law, instant)
+    motion = [response.motion(order, [instant])[0] for order in (0, 1)]
+    place, speed = (problem.basis.amplitudes(each) for each in motion)
+    return replace(
+        problem,
+        loads=[_later(load, instant) for load in problem.loads],
+        laws=[_moved_on(law, instant) for law in problem.laws],
+        initial=ModalState(displacement=place, velocity=speed),
+        duration=positive("duration", duration),
+        sample=None,
+    )
+
+
+def _refuse_memory(response: Response, law: Law, instant: float) -> None:
+    """Raise where a law remembers what the state of the modes does not tell."""
+    if getattr(law, "friction", None) is None:
+        return
+    state = str(response.sample("state", law.name, times=[instant])[0])
+    if state not in _FREE:
+        what = f"rubs at t = {instant:g} s, and a new run would forget where its spring is anchored"
+        hint = "go on from an instant at which it is open"
+        raise InputError(what, key=f"{law.table}.{law.name}", value=state, hint=hint)
+
+
+def _moved_on(law: Law, instant: float) -> Law:
+    """Return a law whose obstacle goes on from an instant."""
+    if not getattr(law, "functions", ()):
+        return law
+    stop: Any = law
+    later: Law = replace(stop, motion=[Shifted(each, instant) for each in stop.functions])
+    return later
+
+
+def _later(load: Load, instant: float) -> Load:
+    if getattr(load, "is_absolute", False):
+        what = "cannot go on: results are told from the ground"
+        raise InputError(what, key=f"loads.{load.name}", hint='take the frame "relative"')
+    return LaterLoad(load, instant)
+
+
+@dataclass(frozen=True, eq=False)
+class LaterLoad:
+    """A load from an instant on.
+
+    Parameters
+    ----------
+    load
+        The load.
+    instant
+        What is its t = 0, in s.
+    """
+
+    load: Load
+    instant: float
+
+    @property
+    def name(self) -> str:
+        """What the load is called."""
+        return self.load.name
+
+    @property
+    def words(self) -> str:
+        """What it is, in a few words."""
+        own = getattr(self.load, "words", type(self.load).__name__)
+        return f"{own}, from {self.instant:g} s on"
+
+    def components(self, basis: ModalBasis) -> Sequence[ForceComponent]:
+        """Return the forces on each mode, each with its functions of time."""
+        return [
+            ForceComponent(force, tuple(Shifted(each, self.instant) for each in functions))
+            for force, functions in self.load.components(basis)
+        ]
+
+    def nodal_forces(self, model: LinearModel) -> FloatArray:
+        """Return the forces on each dof, one a column, (dofs, n)."""
+        forces: Any = getattr(self.load, "nodal_forces", None)
+        if forces is None:
+            raise InputError("says nothing of its forces on the nodes", key=f"loads.{self.name}")
+        return np.asarray(forces(model))

@@ -1,0 +1,215 @@
+"""StaticState: the structure rests under loads, pressed against what it leans on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, all_of
+from bumpstop.errors import InputError
+from bumpstop.loads.load import ForceComponent
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["StaticState"]
+
+_ROUNDS = 200
+_BALANCED = 1e-13
+"""Forces left over this small, beside those that balance each other, are rounding."""
+_SOFT = 1e-9
+"""What holds motions without stiffness during the search, as a part of the largest stiffness."""
+_FAR = 1e9
+"""Steps this much longer than all motions so far lead nowhere."""
+
+
+@runtime_checkable
+class _StaticLaw(Protocol):
+    """A law with a force at rest."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+
+    def row(self, basis: ModalBasis) -> FloatArray:
+        """Return its coordinate per unit of each modal displacement, (N,)."""
+
+    def static_force(self, place: float) -> tuple[float, float]:
+        """Return the force at rest along its coordinate, and how it changes with that."""
+
+
+@runtime_checkable
+class _Load(Protocol):
+    """A load."""
+
+    def components(self, basis: ModalBasis) -> Sequence[ForceComponent]:
+        """Return the forces on each mode, each with its functions of time."""
+
+
+@dataclass(frozen=True, eq=False)
+class StaticState:
+    """Equilibrium at rest under loads, with the stops and springs that take part.
+
+    A beam that is pushed onto its stop and let go at t = 0 starts in the equilibrium under the
+    push, which is then no load of the problem. Stops with friction hold nothing along their
+    obstacle. The equilibrium is found as the least of the potential energy, by Newton's
+    iterations with a line search, whose set of closed stops settles after a few of them.
+
+    Parameters
+    ----------
+    loads
+        The loads, as they are at t = 0.
+    laws
+        The stops and springs.
+
+    Raises
+    ------
+    InputError
+        If a law has no force at rest that is known here.
+
+    Examples
+    --------
+    >>> from bumpstop import ModalBasis, NodalForce, Stop
+    >>> basis = ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    >>> push = NodalForce("push", node="P", force=(-3.0, 0, 0))
+    >>> stop = Stop("wall", node="P", normal=(1, 0, 0), stiffness=100.0 - (2 * np.pi) ** 2)
+    >>> state = StaticState(loads=[push], laws=[stop]).modal_state(basis)[0]
+    >>> print(f"{state[0]:.12f}")
+    -0.030000000000
+    """
+
+    _: KW_ONLY
+    loads: Sequence[object] = ()
+    laws: Sequence[object] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "loads", all_of("loads", _Load, self.loads))
+        for law in self.laws:
+            if not isinstance(law, _StaticLaw):
+                what = "has no force at rest that could be balanced"
+                value = getattr(law, "name", law)
+                hint = "plain stops and springs have"
+                raise InputError(what, key="laws", value=value, hint=hint)
+        object.__setattr__(self, "laws", tuple(self.laws))
+
+    @property
+    def words(self) -> str:
+        """What it is, in a few words."""
+        names = ", ".join(str(getattr(load, "name", "a load")) for load in self.loads)
+        return f"at rest under {names or 'no load'}"
+
+    def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
+        """Return modal displacement, and velocity, which is zero, each (N,).
+
+        Raises
+        ------
+        InputError
+            If nothing holds the structure, or it has no equilibrium that it would stay in.
+        """
+        laws = [law for law in self.laws if isinstance(law, _StaticLaw)]
+        balance = _Balance(basis, self._force(basis), laws)
+        return balance.found(), np.zeros(len(basis.omega2))
+
+    def remarks(self, _: ModalBasis) -> tuple[str, ...]:
+        """Return nothing: the basis has all of an equilibrium of its own."""
+        return ()
+
+    def _force(self, basis: ModalBasis) -> FloatArray:
+        """Return the forces on the modes at t = 0, (N,)."""
+        total = np.zeros(len(basis.omega2))
+        start = np.zeros(1)
+        for load in self.loads:
+            assert isinstance(load, _Load)  # checked when it was made
+            for force, functions in load.components(basis):
+                size = sum(float(each.at(start)[0]) for each in functions) if functions else 1.0
+                total += size * force
+        return total
+
+
+class _Balance:
+    """The search for an equilibrium."""
+
+    def __init__(self, basis: ModalBasis, force: FloatArray, laws: Sequence[_StaticLaw]) -> None:
+        self._stiffness = np.diag(basis.omega2)
+        if basis.circulatory is not None:
+            self._stiffness = self._stiffness + basis.circulatory
+        self._force, self._laws = force, laws
+        self._rows = np.array([law.row(basis) for law in laws]).reshape(len(laws), len(force))
+
+    def found(self) -> FloatArray:
+        """Return the displacement (N,) at which all forces are in balance.
+
+        Raises
+        ------
+        InputError
+            If there is none, or nothing holds the structure.
+        """
+        place = np.zeros(len(self._force))
+        left, scale, slope = self._left(place)
+        for _ in range(_ROUNDS):
+            if np.abs(left).max(initial=0.0) <= _BALANCED * scale:
+                return place
+            step = self._step(left, slope)
+            if not np.isfinite(step).all() or np.abs(step).max() > _FAR * self._reach(place):
+                break
+            place, left, scale, slope = self._searched(place, step)
+        if np.abs(left).max() <= 1e3 * _BALANCED * scale:
+            return place
+        what = "finds no equilibrium: nothing holds the structure, or it moves away by itself"
+        hint = "stops must take what rigid motions are pushed by"
+        raise InputError(what, key="static", hint=hint)
+
+    def _left(self, place: FloatArray) -> tuple[FloatArray, float, FloatArray]:
+        """Return the forces that are left over, their scale, and how they change, (N, N)."""
+        elastic = self._stiffness @ place
+        left, scale = self._force - elastic, np.abs(self._force).max() + np.abs(elastic).max()
+        slope = -self._stiffness
+        for law, row in zip(self._laws, self._rows, strict=True):
+            push, change = law.static_force(float(row @ place))
+            left = left + push * row
+            scale += abs(push) * np.abs(row).max()
+            slope = slope + change * np.outer(row, row)
+        return left, float(scale) or 1.0, slope
+
+    def _step(self, left: FloatArray, slope: FloatArray) -> FloatArray:
+        """Return Newton's step; motions that nothing holds are held softly."""
+        soft = _SOFT * max(np.abs(slope.diagonal()).max(), self._stiffest())
+        if np.linalg.cond(slope) < 1e14:
+            soft = 0.0
+        step: FloatArray = np.linalg.solve(soft * np.eye(len(left)) - slope, left)
+        return step
+
+    def _stiffest(self) -> float:
+        """Return the largest stiffness that a law can have on a mode."""
+        far = [max(abs(law.static_force(x)[1]) for x in (-1e9, 1e9)) for law in self._laws]
+        weights: list[float] = (self._rows**2).max(axis=1, initial=0.0).tolist()
+        products = [k * w for k, w in zip(far, weights, strict=True)]
+        return float(max(products, default=0.0)) or 1.0
+
+    def _reach(self, place: FloatArray) -> float:
+        """Return the size of motions that lead somewhere."""
+        held = float(np.abs(self._force).max()) / (_SOFT * self._stiffest())
+        return max(float(np.abs(place).max()), held)
+
+    def _searched(
+        self, place: FloatArray, step: FloatArray
+    ) -> tuple[FloatArray, FloatArray, float, FloatArray]:
+        """Return the place on a step where the forces do no more work along it."""
+        low, high = 0.0, 1.0
+        found = self._left(place + step)
+        # Past the least of the energy the forces push back: where they do no work it lies.
+        work = float(found[0] @ step)
+        first = float(self._left(place)[0] @ step)
+        if work >= -1e-3 * abs(first):
+            return place + step, *found
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            found = self._left(place + middle * step)
+            work = float(found[0] @ step)
+            if abs(work) <= 1e-3 * abs(first):
+                break
+            low, high = (middle, high) if work > 0.0 else (low, middle)
+        return place + middle * step, *found

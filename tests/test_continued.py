@@ -1,0 +1,84 @@
+"""A run that goes on where another one ended, against an unbroken one."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+
+BASIS = bs.ModalBasis.from_modes(
+    frequency=[3.0, 7.5], damping=[0.01, 0.02], shapes={("P", "dx"): [1.0, 0.4]}
+)
+KNOTS = np.linspace(0.0, 3.0, 13)
+TIMES: list[Any] = [
+    bs.Harmonic(2.8, sine=1.0, cosine=0.3),
+    bs.Polynomial([0.1, -0.2, 0.05]),
+    bs.TimeTable(KNOTS, np.cos(5 * KNOTS), beyond="hold"),
+]
+
+
+def whole(duration: float, **options: Any) -> bs.Problem:
+    said: dict[str, Any] = {
+        "laws": [
+            bs.Stop("guide", node="P", normal=(-1, 0, 0), gap=0.03, stiffness=2e4, damping=10.0),
+            bs.Stop(
+                "hammer",
+                node="P",
+                normal=(1, 0, 0),
+                gap=0.05,
+                stiffness=1e4,
+                motion=bs.Harmonic(1.0, sine=0.02),
+            ),
+        ],
+        "loads": [bs.NodalForce("shaker", node="P", force=(15.0, 0, 0), time=TIMES)],
+    }
+    return bs.Problem(BASIS, **said | options, duration=duration)
+
+
+@pytest.mark.parametrize("at", [None, 0.77, 1.3])
+def test_it_goes_on_as_the_unbroken_run(at: float | None) -> None:
+    unbroken = bs.simulate(whole(3.0))
+    first = bs.simulate(whole(1.5))
+    begin = 1.5 if at is None else at
+    rest = bs.simulate(bs.continued(first, duration=3.0 - begin, at=at))
+    times = np.linspace(0.0, 3.0 - begin, 301)
+    found, expected = rest.motion(0, times), unbroken.motion(0, begin + times)
+    np.testing.assert_allclose(found, expected, atol=1e-11 * np.abs(expected).max())
+    later = unbroken.event_table()["time"]
+    assert rest.event_count == sum(float(time) > begin for time in later) > 2
+    (load,) = rest.problem.loads
+    assert load.name == "shaker"
+
+
+def test_pieces_of_pieces() -> None:
+    unbroken = bs.simulate(whole(3.0))
+    run = bs.simulate(whole(1.0))
+    for _ in range(4):
+        run = bs.simulate(bs.continued(run, duration=0.5))
+    expected = unbroken.sample("displacement", "P", "dx", times=[2.75])
+    found = run.sample("displacement", "P", "dx", times=[0.25])
+    np.testing.assert_allclose(found, expected, atol=1e-10)
+
+
+def test_a_contact_that_rubs_is_told() -> None:
+    shapes = {("P", "dx"): [1.0, 0.0], ("P", "dy"): [0.0, 1.0]}
+    basis = bs.ModalBasis.from_modes(frequency=[1.0, 2.0], damping=[0.0, 0.5], shapes=shapes)
+    pad = bs.Stop(
+        "pad", node="P", normal=(0, 1, 0), stiffness=1e3, friction=0.3, tangential_stiffness=1e3
+    )
+    press = bs.NodalForce("press", node="P", force=(0, -300.0, 0))
+    start = bs.ModalState(velocity=[0.3, 0.0])
+    problem = bs.Problem(basis, laws=[pad], loads=[press], initial=start, duration=0.2)
+    run = bs.simulate(problem)
+    with pytest.raises(bs.InputError, match=r"stops\.pad: rubs at t = 0\.2 s") as caught:
+        bs.continued(run, duration=1.0)
+    assert "\n" not in str(caught.value)
+
+
+def test_mistakes_are_one_line() -> None:
+    run = bs.simulate(whole(0.5))
+    with pytest.raises(bs.InputError, match="at: must be within the run"):
+        bs.continued(run, duration=1.0, at=0.6)
+    with pytest.raises(bs.InputError, match="duration: must be positive"):
+        bs.continued(run, duration=0.0)
