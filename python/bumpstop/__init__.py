@@ -13,7 +13,7 @@ from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
     from bumpstop.continued import continued
-    from bumpstop.errors import BumpstopError, ComputationError, InputError
+    from bumpstop.errors import BumpstopError, ComputationError, InputError, ModellingWarning
     from bumpstop.io.case import Case, load_case
     from bumpstop.io.matrices import read_matrices, write_matrices
     from bumpstop.io.meshes import read_mesh
@@ -140,6 +140,7 @@ __all__ = [
     "Matrices",
     "ModalBasis",
     "ModalState",
+    "ModellingWarning",
     "ModesAround",
     "ModesInBand",
     "NodalForce",
@@ -253,11 +254,12 @@ _HOME = {
     "Matrices": "structure.matrices",
     "ModalBasis": "modal.basis",
     "ModalState": "loads.initial",
+    "ModellingWarning": "errors",
     "ModesAround": "modal.selection",
     "ModesInBand": "modal.selection",
     "NodalForce": "loads.force",
-    "PadScar": "post.scars",
     "NodalState": "loads.nodal_state",
+    "PadScar": "post.scars",
     "Participation": "modal.masses",
     "Periodicity": "post.poincare",
     "Placed": "modal.substructure.placed",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -23,6 +23,13 @@ if TYPE_CHECKING:
 __all__ = ["continued"]
 
 _FREE = ("open", "released")
+
+
+class _InMotion(ModalState):
+    """A state of another run."""
+
+    may_press: ClassVar[bool] = True
+    """Stops may be closed in it."""
 
 
 def continued(response: Response, *, duration: float, at: float | None = None) -> Problem:
@@ -70,7 +77,7 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
         problem,
         loads=[_later(load, instant) for load in problem.loads],
         laws=[_moved_on(law, instant) for law in problem.laws],
-        initial=ModalState(displacement=place, velocity=speed),
+        initial=_InMotion(displacement=place, velocity=speed),
         duration=positive("duration", duration),
         sample=None,
     )

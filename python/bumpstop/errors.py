@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-__all__ = ["BumpstopError", "ComputationError", "InputError", "blamed"]
+__all__ = ["BumpstopError", "ComputationError", "InputError", "ModellingWarning", "blamed"]
 
 
 class BumpstopError(Exception):
@@ -84,6 +84,10 @@ def blamed(key: str) -> Iterator[None]:
         yield
     except InputError as error:
         raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error
+
+
+class ModellingWarning(UserWarning):
+    """A problem can be run, but its user should know something of it: one line."""
 
 
 class ComputationError(BumpstopError):

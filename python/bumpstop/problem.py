@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import KW_ONLY, dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
@@ -166,8 +167,18 @@ class Problem:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What a user should know, a line each: of the basis, the initial state, the loads."""
-        return (*self.basis.remarks, *self.initial_remarks, *self.load_remarks)
+        """What a user should know, a line each: of the basis, the initial state, loads, stops."""
+        return (*self.basis.remarks, *self.initial_remarks, *self.warnings)
+
+    @cached_property
+    def warnings(self) -> tuple[str, ...]:
+        """What a user should think twice about, a line each: of loads and of stops.
+
+        `simulate` gives these as Python warnings too.
+        """
+        from bumpstop.checks import contact_warnings
+
+        return (*self.load_remarks, *contact_warnings(self))
 
     @property
     def load_remarks(self) -> tuple[str, ...]:

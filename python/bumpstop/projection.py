@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector
 from bumpstop.errors import InputError
-from bumpstop.structure.dofs import DOFS
+from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.model import InertiaModel
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["ROTATIONS", "TRANSLATIONS", "along", "direction_row"]
+__all__ = ["ROTATIONS", "TRANSLATIONS", "along", "direction_row", "require_inertia"]
 
 TRANSLATIONS = DOFS[:3]
 ROTATIONS = DOFS[3:]
@@ -47,6 +48,22 @@ def direction_row(
         hint = "give the node mass" if dofs == TRANSLATIONS else "give the node rotary inertia"
         raise InputError("a force here has no mass to move", key="node", value=node, hint=hint)
     return row
+
+
+def require_inertia(basis: ModalBasis, terms: Mapping[Dof, float]) -> None:
+    """Raise where a force along a weighted sum of dofs accelerates no mass alone.
+
+    Raises
+    ------
+    InputError
+        If it does not: it would move something at once, which no mode can follow.
+    """
+    model = basis.model
+    if isinstance(model, InertiaModel):
+        forms = [(weight, model.displacement_form(*dof)) for dof, weight in terms.items()]
+        if not model.has_inertia(LinearForm.sum(forms)):
+            hint = "give the nodes mass, or rotary inertia where they turn"
+            raise InputError("a force here has no mass to move", key="terms", hint=hint)
 
 
 def along(row: FloatArray, motion: FloatArray) -> FloatArray:

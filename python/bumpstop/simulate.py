@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from bumpstop import _core
 from bumpstop.arguments import did_you_mean, finite, not_negative, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
-from bumpstop.errors import ComputationError, InputError
+from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.problem import Law, Problem
 from bumpstop.response import Response
 
@@ -89,6 +90,11 @@ def simulate(
     ComputationError
         If the computation could not be finished.
 
+    Warns
+    -----
+    ModellingWarning
+        Of each of the problem's ``warnings``.
+
     Examples
     --------
     A ball falls 1 m onto a spring; the instant of contact is sqrt(2 h / g).
@@ -115,6 +121,8 @@ def simulate(
     _refuse_rigid_stops(chosen, problem)
     _refuse_smooth_laws(chosen, problem)
     tolerances = _checked_tolerances(chosen, rtol, atol)
+    for line in problem.warnings:
+        warnings.warn(line, ModellingWarning, stacklevel=2)
     model = _model(chosen, problem)
     step = _checked_step(chosen, dt, problem.duration, model, beyond_stability_limit)
     try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import NamedTuple, TypeAlias, cast
@@ -9,7 +10,7 @@ from typing import NamedTuple, TypeAlias, cast
 import numpy as np
 
 from bumpstop.arguments import did_you_mean, positive
-from bumpstop.errors import ComputationError, InputError
+from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.io.case import Case
 from bumpstop.io.case.case import MethodOptions
 from bumpstop.post.references import Check, check_frequencies, check_references
@@ -110,7 +111,10 @@ def _solved(case: Case, name: str, stepping: Stepping, progress: Progress) -> Va
     if stepping.dt is not None:
         used = MethodOptions(**used | {"dt": stepping.dt})
     with _located(case, name), progress(f"{case.name}, {name}") as tell:
-        response = simulate(case.problems[name], chosen, progress=tell, **used)
+        with warnings.catch_warnings():
+            # They are among the remarks, which are printed.
+            warnings.simplefilter("ignore", ModellingWarning)
+            response = simulate(case.problems[name], chosen, progress=tell, **used)
         checks = check_references(response, case.references[name])
     return VariantResult(name, response, checks)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, name, vector
 from bumpstop.errors import InputError
-from bumpstop.projection import ROTATIONS, TRANSLATIONS, direction_row
+from bumpstop.projection import ROTATIONS, TRANSLATIONS, direction_row, require_inertia
 from bumpstop.structure.dofs import Dof
 
 if TYPE_CHECKING:
@@ -112,6 +112,7 @@ class Coordinate:
             row = np.zeros(len(basis.omega2))
             for (node, dof), weight in self.terms.items():
                 row += weight * basis.row(node, dof)
+            require_inertia(basis, self.terms)
         return row
 
     def nodal_force(self, model: LinearModel) -> FloatArray:

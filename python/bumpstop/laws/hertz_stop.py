@@ -147,6 +147,12 @@ class HertzStop(Contact):
         row = self.row(basis)
         return _core.HertzStop(row, self.gap, self.stiffness, self.exponent, self.hunt_crossley)
 
+    def static_force(self, place: float) -> tuple[float, float]:
+        """Return the push in N at rest, ``place`` m along the normal, and its slope in N/m."""
+        depth = max(0.0, -(self.gap + place))
+        slope = self.exponent * self.stiffness * depth ** (self.exponent - 1.0)
+        return self.stiffness * depth**self.exponent, -slope if depth > 0.0 else 0.0
+
     def force(self, depth: FloatArray | Sequence[float], rate: float = 0.0) -> FloatArray:
         """Return the force in N for depths in m, which grow at a rate in m/s."""
         import numpy as np

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -84,6 +84,9 @@ class StaticState:
     _: KW_ONLY
     loads: Sequence[object] = ()
     laws: Sequence[object] = ()
+
+    may_press: ClassVar[bool] = True
+    """Stops may be closed in it."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "loads", all_of("loads", _Load, self.loads))
@@ -191,8 +194,8 @@ class _Balance:
 
     def _reach(self, place: FloatArray) -> float:
         """Return the size of motions that lead somewhere."""
-        held = float(np.abs(self._force).max()) / (_SOFT * self._stiffest())
-        return max(float(np.abs(place).max()), held)
+        pushed = float(np.abs(self._left(np.zeros(len(place)))[0]).max())
+        return max(float(np.abs(place).max()), pushed / (_SOFT * self._stiffest()))
 
     def _searched(
         self, place: FloatArray, step: FloatArray

@@ -1,0 +1,119 @@
+"""What a user should think twice about before a run: stops too stiff, or pressed already."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray
+
+if TYPE_CHECKING:
+    from bumpstop.modal.basis import ModalBasis
+    from bumpstop.problem import Law, Problem
+
+__all__ = ["contact_warnings", "missing_flexibility"]
+
+_SPOILS = 0.1
+"""The share of a contact's own flexibility that the modes left out may have."""
+_HARMLESS = 0.03
+"""Where the last modes foretell less than this share the structure is not asked: they foretell
+more than there is, twice as much along bars and several times as much across beams."""
+_LAST = 3
+"""The last third of the modes foretells what those beyond them do."""
+_LARGEST = 20_000
+"""Dofs of structures that are asked: larger ones would take longer than a user waits."""
+_PRESSED = 1e-12
+"""A depth beside the gap and the motion below which a stop only touches."""
+
+
+def contact_warnings(problem: Problem) -> tuple[str, ...]:
+    """Return a line for each stop that the basis is too stiff for, or that is pressed at t = 0."""
+    stops = [law for law in problem.laws if isinstance(getattr(law, "gap", None), float)]
+    return (*_too_stiff(problem.basis, stops), *_pressed(problem, stops))
+
+
+def missing_flexibility(basis: ModalBasis, laws: Sequence[Law]) -> FloatArray:
+    """Return how much more the structure gives way at laws than its basis, (laws,), in m/N.
+
+    Under a unit force along the coordinate of each, balanced by inertia where the structure can
+    move as a whole: the static displacement of the model, less that of the basis.
+
+    Parameters
+    ----------
+    basis
+        A basis that was made from a structure.
+    laws
+        The laws.
+    """
+    from bumpstop.modal.static_shapes import StaticShapes
+
+    model = basis.model
+    assert model is not None  # as its user promises
+    forces = np.stack([law.coordinate.nodal_force(model) for law in laws], axis=1)
+    whole = np.einsum("dn,dn->n", forces, StaticShapes(model).under(forces))
+    rows = np.stack([law.coordinate.row(basis) for law in laws])
+    missing: FloatArray = np.maximum(whole - _flexibilities(basis, rows).sum(axis=1), 0.0)
+    return missing
+
+
+def _too_stiff(basis: ModalBasis, stops: Sequence[Law]) -> Iterator[str]:
+    asked = [stop for stop in stops if _is_doubtful(basis, stop)]
+    if not asked:
+        return
+    missing = missing_flexibility(basis, asked).tolist()
+    for stop, flexibility in zip(asked, missing, strict=True):
+        stiffness: Any = getattr(stop, "stiffness", 0.0)
+        share = stiffness * flexibility
+        if share > _SPOILS:
+            yield (
+                f"stop {stop.name!r}: the modes left out would give way {100 * share:.3g} % as "
+                "much as the stop itself, and its force is wrong by about as much; take more "
+                'modes, or static_shapes = "stops"'
+            )
+
+
+def _is_doubtful(basis: ModalBasis, stop: Law) -> bool:
+    """Tell whether the last modes are so soft at a stop that those beyond them may matter."""
+    stiffness = getattr(stop, "stiffness", None)
+    model = basis.model
+    if model is None or not isinstance(stiffness, float) or hasattr(stop, "exponent"):
+        return False
+    modes = len(basis.omega2)
+    if not modes < len(model.free) <= _LARGEST:
+        return False
+    row = stop.coordinate.row(basis)[np.newaxis]
+    last = _flexibilities(basis, row)[0, modes - max(modes // _LAST, 1) :]
+    return bool(stiffness * modes * last.max() > _HARMLESS)
+
+
+def _flexibilities(basis: ModalBasis, rows: FloatArray) -> FloatArray:
+    """Return what each mode gives way under unit forces along rows, (rows, N), in m/N."""
+    bends = basis.omega2 > 0.0
+    flexible: FloatArray = np.where(bends, rows**2 / np.where(bends, basis.omega2, 1.0), 0.0)
+    return flexible
+
+
+def _pressed(problem: Problem, stops: Sequence[Law]) -> Iterator[str]:
+    """Yield a line for each stop into which the structure reaches at t = 0."""
+    if getattr(problem.initial, "may_press", False):
+        return
+    place = None if problem.initial is None else problem.initial.modal_state(problem.basis)[0]
+    for stop in stops:
+        gap: Any = getattr(stop, "gap", 0.0)
+        moved = 0.0
+        if place is not None and place.any():
+            moved = float(stop.coordinate.row(problem.basis) @ place)
+        depth = -(gap + moved)
+        if depth <= _PRESSED * (abs(gap) + abs(moved)):
+            continue
+        start = (
+            f"its gap of {gap:.6g} m is closed from the start"
+            if moved == 0.0
+            else f"the structure starts {depth:.6g} m inside its obstacle"
+        )
+        yield (
+            f"stop {stop.name!r}: {start}, and it pushes at once; an equilibrium under the "
+            "loads, [initial.static], would start at rest"
+        )
