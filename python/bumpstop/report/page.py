@@ -46,7 +46,13 @@ def page_content(
     )
     drawings = {name: shared.drawing for shared in bases for name in shared.variants}
     variants = {
-        name: Variant(f"variant-{number}", response, case.references.get(name, []), drawings[name])
+        name: Variant(
+            f"variant-{number}",
+            response,
+            case.references.get(name, []),
+            drawings[name],
+            case.results.get(name, []),
+        )
         for number, (name, response) in enumerate(responses.items(), start=1)
     }
     content = _head(case, checks) | {

@@ -14,12 +14,14 @@ from bumpstop.report.balance import ledger_instants, residual_told
 from bumpstop.report.published import deviation_told, tolerance_told, verdict, worst
 from bumpstop.report.scales import percent, power_of_ten, scale_for, significant, with_unit
 from bumpstop.report.summary import Row, basis_rows, method_words, model_rows
+from bumpstop.report.words import shown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.post.references import Check
+    from bumpstop.post.results.reading import Reading
     from bumpstop.problem import Problem
     from bumpstop.response import Response
 
@@ -32,6 +34,7 @@ __all__ = [
     "model",
     "modes",
     "overview",
+    "results",
     "variant_notes",
 ]
 
@@ -233,6 +236,32 @@ def impacts(response: Response) -> dict[str, Any]:
     columns = [f"{heading} ({scales[name].unit})" for name, heading in _IMPACT_COLUMNS]
     more = count - len(rows)
     return {"columns": columns, "rows": rows, "more": f"{more:,}" if more else ""}
+
+
+def results(readings: Mapping[str, Reading]) -> list[dict[str, Any]]:
+    """Return the numbers of the results that a case asks for, a table for each."""
+    told = []
+    for name, reading in readings.items():
+        rows = [
+            {
+                "label": fact.what.long_name[:1].upper() + fact.what.long_name[1:],
+                "value": _told(fact.value, fact.what.units),
+                "uncertainty": _told(fact.uncertainty, fact.what.units),
+            }
+            for fact in reading.facts
+        ]
+        uncertain = any(np.isfinite(fact.uncertainty) for fact in reading.facts)
+        if rows:
+            told.append({"name": name, "rows": rows, "uncertain": uncertain})
+    return told
+
+
+def _told(value: float, units: str) -> str:
+    # Prefixes are for plain units; a rate or a volume is told as it is.
+    if units.isalpha() and np.isfinite(value):
+        return with_unit(value, units)
+    number = significant(value, 4, zeros=False)
+    return number if units == "1" or not np.isfinite(value) else f"{number} {shown(units)}"
 
 
 def modes(basis: ModalBasis, seen: Sequence[bool] | None = None) -> list[dict[str, str]]:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from bumpstop.post.references import Check, Reference
+    from bumpstop.post.results.reading import Result
     from bumpstop.problem import Problem
     from bumpstop.report.figures import Figure
     from bumpstop.report.outline import Outline
@@ -42,6 +43,8 @@ class Variant:
         Published values; they are drawn on the figures.
     drawing
         Outline of the structure.
+    results
+        What else the case asks for.
     """
 
     def __init__(
@@ -50,10 +53,12 @@ class Variant:
         response: Response,
         references: Sequence[Reference],
         drawing: Outline,
+        results: Sequence[Result] = (),
     ) -> None:
         self.identity = identity
         self.response = response
         self.places = watched_places(response.problem, references)
+        self.readings = {result.name: result.read(response) for result in results}
         self.scene = motion_scene(response, self.places[0], drawing)
         self.figures = {
             f"{identity}-figure-{number}": figure
@@ -70,6 +75,7 @@ class Variant:
             "figures": others,
             "published": published(checks),
             "sources": list(dict.fromkeys(check.source for check in checks if check.source)),
+            "results": tables.results(self.readings),
             "impacts": tables.impacts(self.response) if self.response.problem.laws else None,
         }
 
@@ -95,6 +101,12 @@ class Variant:
             yield figures.gauge_strain(response, gauge.name, references)
         yield figures.phase_portrait(response, *self.places[0])
         yield figures.energy_ledger(response)
+        for reading in self.readings.values():
+            if reading.figures:
+                from bumpstop.report.arrays import array_figure
+
+                for array, log in reading.figures:
+                    yield array_figure(array, log=log)
 
     def _motion(self) -> dict[str, Any]:
         """Return what stands around the moving picture."""

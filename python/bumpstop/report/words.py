@@ -5,7 +5,7 @@ from __future__ import annotations
 from bumpstop.post.references import IMPACT_COLUMNS
 from bumpstop.quantities import ENERGIES, IMPACTS, QUANTITIES, STATISTICS, dof_units
 
-__all__ = ["title_of", "unit_of"]
+__all__ = ["shown", "title_of", "unit_of"]
 
 STRAIN = "strain"
 """Stands for the unit of strain, which has none, so that it is shown in microstrain."""
@@ -70,7 +70,7 @@ def shown(units: str) -> str:
     >>> shown("m/s^2")
     'm/s²'
     """
-    return units.replace("^2", "²")
+    return units.replace("^2", "²").replace("^3", "³")
 
 
 def _capitalised(text: str) -> str:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple, TypedDict
+from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict
 
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.post.references import Reference
 from bumpstop.problem import Problem
+
+if TYPE_CHECKING:
+    from bumpstop.post.results.reading import Result
 
 __all__ = ["Case", "Method", "MethodOptions"]
 
@@ -56,6 +59,8 @@ class Case:
         The same for the case without its variants.
     exports
         Formats in which the responses of each variant are written beside NetCDF.
+    results
+        What else each variant is asked for, in its report.
     documents
         What the file says of each variant, as TOML has it: what finer models are made of.
     """
@@ -71,4 +76,5 @@ class Case:
     method: str
     method_options: MethodOptions
     exports: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    results: Mapping[str, Sequence[Result]] = field(default_factory=dict)
     documents: Mapping[str, dict[str, Any]] = field(default_factory=dict, repr=False)

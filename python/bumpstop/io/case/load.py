@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic_core import ValidationError
@@ -25,6 +25,9 @@ from bumpstop.io.case.tables.check import checked
 from bumpstop.io.case.tables.run import RunTable
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.problem import Problem
+
+if TYPE_CHECKING:
+    from bumpstop.post.results.reading import Result
 
 __all__ = ["checked_tables", "load_case", "with_components"]
 
@@ -82,6 +85,7 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
         method=method.name,
         method_options=method.options,
         exports={variant: tables.run.export for variant, tables in variants.items() if tables.run},
+        results=_results(variants, base, problems, file.parent),
         documents=documents,
     )
 
@@ -162,6 +166,20 @@ def _built(
             if problem is not None:
                 problems[name] = problem
     return bases, problems
+
+
+def _results(
+    variants: dict[str, CaseFile], base: CaseFile, problems: dict[str, Problem], folder: Path
+) -> dict[str, list[Result]]:
+    """Return what else each variant is asked for."""
+    found = {}
+    for name, tables in variants.items():
+        if tables.results:
+            from bumpstop.io.case.build.results import built_results
+
+            with _in_variant(name, base, folder):
+                found[name] = built_results(tables, problems[name])
+    return found
 
 
 @contextmanager

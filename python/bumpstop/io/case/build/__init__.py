@@ -27,7 +27,7 @@ __all__ = ["Builder"]
 _STRUCTURE = (*SOURCES, *keys_of(StructureTables), "components", "joints", "basis")
 """Tables that the modes are made of."""
 
-_IN_TIME = ("stops", "laws", "loads", "base_motion", "initial", "gauges", "outputs")
+_IN_TIME = ("stops", "laws", "loads", "base_motion", "initial", "gauges", "outputs", "results")
 """Tables that mean nothing where nothing is simulated."""
 
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.modes import ModesTable
     from bumpstop.io.case.tables.outputs import OutputTable
     from bumpstop.io.case.tables.parts import PartTable
+    from bumpstop.io.case.tables.results import ResultTable
 else:
     BaseMotionTable = later("base_motion", "BaseMotionTable")
     ComponentTable = later("components", "ComponentTable")
@@ -35,6 +36,7 @@ else:
     ModesTable = later("modes", "ModesTable")
     OutputTable = later("outputs", "OutputTable")
     PartTable = later("parts", "PartTable")
+    ResultTable = later("results", "ResultTable")
 from bumpstop.io.case.tables.table import Field
 
 __all__ = ["CaseFile"]
@@ -74,6 +76,9 @@ class CaseFile(StructureTables):
     initial: InitialTable | None = Field(default=None, description="The state at t = 0")
     gauges: dict[Name, GaugeTable] = Field(default={}, description="Strain gauges, by name")
     outputs: list[OutputTable] = Field(default=[], description="More motions to write to files")
+    results: dict[Name, ResultTable] = Field(
+        default={}, description="What else to read out of a run for its report, by name"
+    )
     run: RunTable | None = Field(
         default=None,
         description="For how long to simulate, and how; without it a case is about modes alone",

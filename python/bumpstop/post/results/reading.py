@@ -1,0 +1,70 @@
+"""What a result is, and what it finds in a run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from bumpstop.arguments import one_of
+from bumpstop.errors import InputError
+from bumpstop.quantities import Quantity
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from bumpstop.problem import Problem
+    from bumpstop.response import Response
+
+__all__ = ["Drawn", "Fact", "Reading", "Result", "check_span", "check_stop"]
+
+
+class Fact(NamedTuple):
+    """A number that a result tells."""
+
+    what: Quantity
+    value: float
+    uncertainty: float = math.nan
+    """Standard error, where there is one."""
+
+
+class Drawn(NamedTuple):
+    """An array to be drawn, and which of its axes are logarithmic."""
+
+    array: xr.DataArray
+    log: str = ""
+
+
+class Reading(NamedTuple):
+    """What a result found in a run."""
+
+    facts: Sequence[Fact] = ()
+    figures: Sequence[Drawn] = ()
+
+
+class Result(Protocol):
+    """Something to be read out of a run."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+
+    def check(self, problem: Problem) -> None:
+        """Raise InputError where a problem does not have what it is about."""
+
+    def read(self, response: Response) -> Reading:
+        """Read it out of a run."""
+
+
+def check_stop(stop: str, problem: Problem) -> None:
+    """Raise where a problem has no such stop."""
+    one_of("stop", stop, [law.name for law in problem.laws])
+
+
+def check_span(start: float, end: float | None, problem: Problem) -> None:
+    """Raise where a stretch of time is not within the run."""
+    last = problem.duration if end is None else end
+    if not 0.0 <= start < last <= problem.duration:
+        key, value = ("start", start) if end is None else ("end", end)
+        what = f"must be within the run of {problem.duration:g} s, the start before the end"
+        raise InputError(what, key=key, value=value)

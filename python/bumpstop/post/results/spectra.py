@@ -1,0 +1,129 @@
+"""Results about signals: spectra, envelopes and response spectra."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, one_of
+from bumpstop.errors import InputError
+from bumpstop.post.results.reading import Drawn, Reading, check_span, check_stop
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from bumpstop.problem import Problem
+    from bumpstop.response import Response
+
+__all__ = ["SPECTRA", "FloorSpectrum", "Spectrum"]
+
+SPECTRA = ("amplitude", "density", "spectrogram", "envelope")
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """A spectrum or envelope of a signal, sampled for it; see `power_spectral_density` and others.
+
+    ``target`` is a quantity and what it is that of, as `Response.sample` takes them.
+    """
+
+    name: str
+    _: KW_ONLY
+    target: tuple[str, *tuple[str, ...]]
+    kind: str
+    step: float
+    segment: float | None = None
+    window: str = "hann"
+    start: float = 0.0
+    end: float | None = None
+
+    def check(self, problem: Problem) -> None:
+        """Raise where there is no such signal, or the time is not within the run."""
+        one_of("of", self.kind, SPECTRA)
+        if self.kind == "spectrogram" and self.segment is None:
+            raise InputError("is needed for a spectrogram", key="segment")
+        check_span(self.start, self.end, problem)
+        _check_target(self.target, problem)
+
+    def read(self, response: Response) -> Reading:
+        """Read the spectrum."""
+        from bumpstop.post import signals
+
+        sampled = response.at(_grid(response, self.start, self.end, self.step))
+        signal = _signal(sampled, self.target)
+        match self.kind:
+            case "amplitude":
+                array, log = signals.amplitude_spectrum(signal, window=self.window), "y"
+            case "density":
+                array = signals.power_spectral_density(
+                    signal, segment=self.segment, window=self.window
+                )
+                log = "y"
+            case "spectrogram":
+                length = self.segment or 0.0
+                array, log = signals.spectrogram(signal, segment=length, window=self.window), "z"
+            case _:
+                array, log = signals.envelope(signal), ""
+        return Reading(figures=[Drawn(array, log)])
+
+
+@dataclass(frozen=True)
+class FloorSpectrum:
+    """Response spectra of the acceleration of a node; see `response_spectrum`."""
+
+    name: str
+    _: KW_ONLY
+    node: str
+    dof: str
+    frequencies: Sequence[float]
+    damping: Sequence[float]
+    step: float
+    quantity: str = "pseudo_acceleration"
+    start: float = 0.0
+    end: float | None = None
+
+    def check(self, problem: Problem) -> None:
+        """Raise where there is no such node, or the time is not within the run."""
+        problem.basis.row(self.node, self.dof)
+        check_span(self.start, self.end, problem)
+
+    def read(self, response: Response) -> Reading:
+        """Read a spectrum for each damping."""
+        from bumpstop.post.response_spectrum import response_spectrum
+
+        sampled = response.at(_grid(response, self.start, self.end, self.step))
+        motion = sampled.acceleration(self.node, self.dof)
+        found = []
+        for damping in self.damping:
+            spectrum = response_spectrum(motion, self.frequencies, damping, quantity=self.quantity)
+            words = f"{self.quantity.replace('_', ' ')} spectrum of {self.node} {self.dof}"
+            titled = spectrum.assign_attrs(title=f"{words}, damping {damping:.2g}")
+            found.append(Drawn(titled, "xy"))
+        return Reading(figures=found)
+
+
+def _grid(response: Response, start: float, end: float | None, step: float) -> FloatArray:
+    last = response.problem.duration if end is None else end
+    count = math.floor((last - start) / step + 1e-9) + 1
+    times: FloatArray = start + step * np.arange(count, dtype=np.float64)
+    return times
+
+
+def _signal(response: Response, target: tuple[str, ...]) -> xr.DataArray:
+    quantity, *of = target
+    signal: xr.DataArray = getattr(response, quantity)(*of)
+    return signal
+
+
+def _check_target(target: tuple[str, ...], problem: Problem) -> None:
+    quantity, *of = target
+    if quantity == "gauge":
+        one_of("gauge", of[0], [gauge.name for gauge in problem.gauges])
+    elif len(of) == 1:
+        check_stop(of[0], problem)
+    else:
+        problem.basis.row(of[0], of[1])

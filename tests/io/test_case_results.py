@@ -1,0 +1,155 @@
+"""``[results.NAME]``: what a case asks for is read and shown in its report."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+from bumpstop.report import write_report
+
+CASE = """
+[nodes]
+A = [0.0, 0.0, 0.0]
+B = [1.2, 0.0, 0.0]
+[materials.steel]
+young_modulus = "210 GPa"
+poisson_ratio = 0.3
+density = 7800.0
+[sections.bar]
+shape = "rectangle"
+height = "12 mm"
+width = "12 mm"
+[beams.AB]
+nodes = ["A", "B"]
+elements = 6
+material = "steel"
+section = "bar"
+[[supports]]
+nodes = "all"
+fixed = ["dx", "dz", "drx", "dry"]
+[[supports]]
+nodes = ["A"]
+fixed = ["dy", "drz"]
+[basis]
+modes = 3
+damping = 0.02
+[stops.wall]
+node = "B"
+normal = [0, -1, 0]
+gap = "0.5 mm"
+stiffness = "80 kN/m"
+[loads.shaker]
+type = "force"
+node = "B"
+force = [0, 30, 0]
+harmonics = [{ frequency = 7.0, sine = 1.0 }]
+[gauges.root]
+beam = "AB"
+at = 0.0
+fibre = [0.006, 0.0]
+[run]
+duration = 2.0
+method = "exact"
+"""
+
+RESULTS = {
+    "counts": 'type = "contact_statistics"\nstop = "wall"\nthreshold = 1.0\nstart = 0.2\n'
+    "blocks = 6",
+    "spectrum": 'type = "spectrum"\nquantity = "gauge"\ngauge = "root"\nsample = "1 ms"',
+    "lines": 'type = "spectrum"\nof = "amplitude"\nquantity = "velocity"\nnode = "B"\ndof = "dy"\n'
+    'sample = "1 ms"',
+    "waterfall": 'type = "spectrum"\nof = "spectrogram"\nquantity = "stop_force"\nstop = "wall"\n'
+    'sample = "1 ms"\nsegment = "0.2 s"',
+    "shape": 'type = "spectrum"\nof = "envelope"\nquantity = "gap"\nstop = "wall"\nsample = "2 ms"',
+    "floor": 'type = "response_spectrum"\nnode = "B"\ndof = "dy"\nlowest = 1.0\n'
+    'highest = "0.2 kHz"\npoints = 12\nsample = "0.5 ms"\ndamping = [0.02, 0.05]',
+    "root": 'type = "section_forces"\nbeam = "AB"\nat = 0.0',
+    "fibre": 'type = "stress"\nbeam = "AB"\nat = "0.1 m"\nfibre = ["6 mm", 0.0]',
+    "clamp": 'type = "reactions"\nnode = "A"',
+    "points": 'type = "poincare"\nnode = "B"\ndof = "dy"\nperiod = 0.142857142857\nstart = 0.5',
+    "order": 'type = "lyapunov"\nexponents = 2\nstart = 0.3',
+    "scar": 'type = "wear"\nstop = "wall"\nlaw = "archard"\ncoefficient = 2e-14\n'
+    'service = ["1 year", "2 year"]\nradius = "9 mm"\nlength = "10 mm"',
+}
+
+
+def case_with(tmp_path: Path, *names: str, **more: str) -> bs.Case:
+    tables = {name: RESULTS[name] for name in names} | more
+    text = CASE + "".join(f"[results.{name}]\n{table}\n" for name, table in tables.items())
+    file = tmp_path / "case.toml"
+    file.write_text(text)
+    return bs.load_case(file)
+
+
+def test_every_type_is_shown_in_the_report(tmp_path: Path) -> None:
+    case = case_with(tmp_path, *RESULTS)
+    responses = {name: bs.simulate(problem) for name, problem in case.problems.items()}
+    for result in case.results["base"]:
+        reading = result.read(responses["base"])
+        assert reading.facts or reading.figures, result.name
+    page = tmp_path / "report.html"
+    write_report(case, responses, {}, page)
+    text = page.read_text()
+    assert "Work rate at wall" in text
+    assert "Lyapunov exponent 2" in text
+    assert "Standard error" in text
+    assert "Poincaré section of B dy" in text
+    assert "Largest bending moment about local z in AB" in text
+
+
+def test_they_read_what_the_functions_read(tmp_path: Path) -> None:
+    case = case_with(tmp_path, "counts", "floor", "root", "scar")
+    run = bs.simulate(case.problems["base"])
+    counts, floor, root, scar = (result.read(run) for result in case.results["base"])
+    expected = bs.contact_statistics(run, "wall", threshold=1.0, start=0.2, blocks=6)
+    told = {fact.what.long_name: fact for fact in counts.facts}
+    assert told["rms force over all the time"].value == expected["rms_force"]
+    error = expected.uncertainty["rms_force"]
+    assert told["rms force over all the time"].uncertainty == error
+    times = np.arange(0.0, 2.0 + 1e-9, 5e-4)
+    motion = run.at(times.clip(0.0, 2.0)).acceleration("B", "dy")
+    spectrum = bs.response_spectrum(motion, np.geomspace(1.0, 200.0, 12), 0.05)
+    np.testing.assert_allclose(floor.figures[1].array, spectrum, rtol=1e-9)
+    assert floor.figures[1].log == "xy"
+    moment = bs.recovery(run).section_forces("AB", 0.0)["Mz"]
+    assert [str(drawn.array.name) for drawn in root.figures] == ["Vy", "Mz"]
+    np.testing.assert_array_equal(root.figures[1].array, moment)
+    flat = bs.FlatScar(radius=9e-3, length=10e-3)
+    law = bs.ArchardWear(2e-14)
+    year = 365.25 * 86400.0
+    expected_wear = bs.wear(run, "wall", law, [year, 2.0 * year], scar=flat)
+    assert scar.facts[-1].value == pytest.approx(float(expected_wear["depth"][-1]), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "what"),
+    [
+        ('type = "contact_statistics"\nstop = "wal"', "results.bad.stop", "did you mean 'wall'"),
+        (RESULTS["counts"] + "\nend = 3.0", "results.bad.end", "within the run of 2 s"),
+        (RESULTS["root"].replace("AB", "AX"), "results.bad.beam", "unknown beam"),
+        (RESULTS["clamp"].replace('"A"', '"Z"'), "results.bad.node", "unknown node"),
+        (RESULTS["spectrum"] + '\nnode = "B"', "results.bad.node", "does not belong to gauge"),
+        (RESULTS["lines"].replace('dof = "dy"\n', ""), "results.bad.dof", "is needed"),
+        (RESULTS["waterfall"].replace('segment = "0.2 s"', ""), "results.bad.segment", "is needed"),
+        (RESULTS["floor"].replace('"0.2 kHz"', "0.5"), "results.bad.highest", "above the lowest"),
+        (RESULTS["scar"].replace('length = "10 mm"', ""), "results.bad.length", "is needed"),
+        (
+            RESULTS["root"].replace("section_forces", "section_force"),
+            "results.bad.type",
+            "section_forces",
+        ),
+    ],
+)
+def test_refuses(tmp_path: Path, table: str, key: str, what: str) -> None:
+    with pytest.raises(bs.InputError, match=what) as caught:
+        case_with(tmp_path, bad=table)
+    assert caught.value.key == key
+
+
+def test_a_modal_case_has_none(tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    modal = CASE.partition("[stops.wall]")[0]
+    file.write_text(f"{modal}[results.bad]\n{RESULTS['clamp']}\n")
+    with pytest.raises(bs.InputError, match="there are results"):
+        bs.load_case(file)
