@@ -100,7 +100,7 @@ def carried_obstacles(problem: Problem) -> list[tuple[TimeFunction, ...]]:
     Raises
     ------
     InputError
-        If a law would have to follow supports that is no plain stop.
+        If a rigid stop would have to follow supports, or a contact that rubs along their motion.
     """
     carriers: list[MovingSupports] = [
         load for load in problem.loads if isinstance(load, MovingSupports)
@@ -119,9 +119,10 @@ def _motions(law: Law, carriers: list[MovingSupports], problem: Problem) -> Iter
         sliding = _sliding(law, problem)
         along = 0.0 if sliding is None else float(sliding @ field)
         negligible = _NOTHING * float(np.abs(field).max())
-        if abs(along) > negligible or (abs(normal) > negligible and not hasattr(law, "functions")):
-            what = f"cannot follow the supports that {load.name!r} moves; stops without friction do"
-            raise InputError(what, key=f"{law.table}.{law.name}")
+        if abs(along) > negligible or (hasattr(law, "restitution") and abs(normal) > negligible):
+            what = f"cannot follow the supports that {load.name!r} moves"
+            hint = "rigid stops do not, nor contacts that rub along the motion"
+            raise InputError(what, key=f"{law.table}.{law.name}", hint=hint)
         if abs(normal) > negligible:
             for function in load.travel(problem.duration).displacement:
                 yield scaled(function, -normal)

@@ -159,6 +159,59 @@ def test_dampers_and_a_stop_feel_the_whole_motion() -> None:
     np.testing.assert_allclose(gap, 0.02 - found.y[1], atol=1e-6)
 
 
+@pytest.mark.parametrize("kind", ["displacement", "acceleration"])
+def test_springs_of_several_slopes_feel_the_whole_motion(kind: str) -> None:
+    """Between the masses and to the ground, against a Runge-Kutta scheme."""
+    knots = np.linspace(0.0, 1.0, 11)
+    table = bs.TimeTable(knots, np.cos(4 * knots), beyond="zero")
+    shaken = (
+        bs.SupportMotion("left", nodes="A", acceleration=(2.0, 0, 0), time=table)
+        if kind == "acceleration"
+        else bs.SupportMotion(
+            "left", nodes="A", displacement=(0.05, 0, 0), time=bs.Harmonic(3.0, sine=1.0)
+        )
+    )
+    between = bs.SpringLaw(
+        "between",
+        node="B",
+        other="C",
+        direction=(1, 0, 0),
+        stiffness=(900.0, 100.0, 2000.0),
+        breaks=(-0.004, 0.01),
+        damping=3.0,
+        preload=1.0,
+    )
+    ground = bs.SpringLaw(
+        "ground", node="B", direction=(1, 0, 0), stiffness=(0.0, 1000.0), breaks=(0.03,)
+    )
+    basis = bs.ModalBasis.from_structure(chain(), modes="all")
+    problem = bs.Problem(basis, laws=[between, ground], loads=[shaken], duration=1.5)
+    response = bs.simulate(problem)
+    travel, size = shaken.travel(1.5), shaken.size[0]
+
+    def moved(t: float, derivative: int) -> float:
+        return size * float(travel.at(np.array([t]), derivative)[0])
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        b, c, vb, vc = y
+        left = 800 * (moved(t, 0) - b) + 3 * (moved(t, 1) - vb)
+        middle = 300 * (c - b) + vc - vb - float(between.force([b - c])[0]) - 3 * (vb - vc)
+        right = -500 * c - 2 * vc
+        return [vb, vc, (left + middle - float(ground.force([b])[0])) / 2, right - middle]
+
+    follow = np.linalg.solve(np.array([[1100.0, -300.0], [-300.0, 800.0]]), np.array([800.0, 0]))
+    start = np.concatenate([follow * moved(0.0, 0), follow * moved(0.0, 1)])
+    times = np.linspace(0.0, 1.5, 31)
+    found = solve_ivp(
+        rate, (0, 1.5), start, "DOP853", t_eval=times, rtol=1e-10, atol=1e-13, max_step=2e-3
+    )
+    for node, expected in zip("BC", found.y, strict=False):
+        computed = response.sample("displacement", node, "dx", times=times)
+        np.testing.assert_allclose(computed, expected, atol=3e-7 * np.abs(found.y).max())
+    assert response.event_count > 3
+    assert response.energy_residual < 1e-12
+
+
 @pytest.mark.parametrize(
     ("options", "laws", "message"),
     [
@@ -172,8 +225,8 @@ def test_dampers_and_a_stop_feel_the_whole_motion() -> None:
         ),
         (
             {},
-            [bs.SpringLaw("soft", node="B", direction=(1, 0, 0), stiffness=[1.0, 2.0], breaks=[0])],
-            r"laws\.soft: cannot follow the supports that 'left' moves",
+            [bs.RigidStop("floor", node="B", normal=(1, 0, 0), restitution=0.5)],
+            r"stops\.floor: cannot follow the supports that 'left' moves",
         ),
     ],
 )
