@@ -133,6 +133,18 @@ def test_errors_of_time_are_those_of_the_closed_form(
     assert np.isnan(found.mesh.error).all()
 
 
+def test_errors_of_tolerance_are_those_of_the_closed_form(tmp_path: Path) -> None:
+    text = OSCILLATOR.replace('"central_difference"', '"rk32"').replace("dt = 0.02", "rtol = 1e-4")
+    found = bs.converge(written(tmp_path, text)).variants["base"]
+    times, rate = np.array([0.2, 0.5, 0.6]), 10.0 * np.sqrt(0.99)
+    true = np.exp(-times) * np.sin(rate * times) / rate
+    np.testing.assert_allclose(found.time.error, found.computed - true, rtol=1e-9)
+    assert [rung.label for rung in found.time.rungs] == ["0.0001", "1e-05", "1e-06", "1e-07"]
+    assert "tolerances of 0.0001, 1e-05, 1e-06, 1e-07, and the exact method" in found.time.told
+    left = [np.abs(rung.values - true).max() for rung in found.time.rungs]
+    assert left == sorted(left, reverse=True)
+
+
 def test_frequencies_converge_to_those_of_a_bar(tmp_path: Path) -> None:
     true = (2.0 * np.arange(1, 4) - 1.0) * 5000.0 / 8.0  # (2 n - 1) c / 4 L, c = 5 km/s
     reference = f"""

@@ -7,7 +7,7 @@ with all modes of each mesh, or the most that are taken and the static shapes of
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import count, takewhile
 from typing import Any, NamedTuple
@@ -17,16 +17,15 @@ import numpy as np
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError, InputError
 from bumpstop.modal.selection import LowestModes, ModesAround, ModeSelection, ModesInBand
-from bumpstop.simulate import FIXED_STEP_METHODS
+from bumpstop.simulate import FIXED_STEP_METHODS, RTOL
 from bumpstop.study.convergence.finer import Document, has_beams, with_modes, with_static_shapes
 from bumpstop.study.convergence.limits import extrapolated, orders_towards
-from bumpstop.study.convergence.model import Model, Result
+from bumpstop.study.convergence.model import BEST_RTOL, Model, Result
 from bumpstop.study.convergence.result import Ladder, Rung
 
 __all__ = ["Limits", "basis_ladder", "mesh_ladder", "remedy", "time_ladder"]
 
-BEST = "auto"
-"""The method of the finer models: the exact one wherever it applies."""
+EXACT = "exact"
 ALL = "all modes"
 OF_PARTS = "all modes of the parts as they are reduced, whose own modes are not refined"
 MOST_DOFS = 50_000
@@ -42,7 +41,9 @@ class Limits(NamedTuple):
     """The most modes: all of a model that has no more."""
 
 
-def time_ladder(model: Model, own: Result, best: Result, dt: float | None, levels: int) -> Ladder:
+def time_ladder(
+    model: Model, own: Result, best: Result, options: Mapping[str, Any], levels: int
+) -> Ladder:
     """Return the error of the method of time integration, against the best method.
 
     Parameters
@@ -51,32 +52,41 @@ def time_ladder(model: Model, own: Result, best: Result, dt: float | None, level
         The variant.
     own, best
         What its method and the best method give.
-    dt
-        Step of its method in s, if it has one.
+    options
+        Options of its method: the step, or the tolerance.
     levels
-        How often the step is halved.
+        How often the step is halved, or the tolerance made ten times finer.
     """
     response, limit = own.response, best.values
-    if response is None:
+    if response is None or best.response is None:
         return _unknown("time", len(limit), "nothing is simulated", 0.0)
-    if response.method not in FIXED_STEP_METHODS or dt is None:
-        told = f"none beyond rounding: the {response.method} method has no time steps"
+    if response.method == EXACT:
+        told = "none beyond rounding: the exact method has no time steps"
         return _unknown("time", len(limit), told, 0.0)
-    steps = [dt / 2**level for level in range(levels + 1)]
-    finer = (model.as_given(response.method, dt=step).values for step in steps[1:])
+    key, sizes = _finer_steps(response.method, options, levels)
+    finer = (model.as_given(response.method, **{**options, key: size}).values for size in sizes[1:])
     rungs = [
-        Rung(f"{step:.4g}", 1.0 / step, values)
-        for step, values in zip(steps, [own.values, *finer], strict=True)
+        Rung(f"{size:.4g}", 1.0 / size, values)
+        for size, values in zip(sizes, [own.values, *finer], strict=True)
     ]
-    best_method = "" if best.response is None else best.response.method
+    told = f"steps of {_listed(rungs)} s" if key == "dt" else f"tolerances of {_listed(rungs)}"
     return Ladder(
         part="time",
         rungs=tuple(rungs),
         error=own.values - limit,
         uncertainty=np.zeros(len(limit)),
-        order=_order([*rungs, Rung(best_method, np.inf, limit)]),
-        told=f"steps of {_listed(rungs)} s, and the {best_method} method",
+        order=_order([*rungs, Rung(best.response.method, np.inf, limit)]),
+        told=f"{told}, and the {best.response.method} method",
     )
+
+
+def _finer_steps(method: str, options: Mapping[str, Any], levels: int) -> tuple[str, list[float]]:
+    """Return what is made finer, and its values from that of the case on."""
+    if method in FIXED_STEP_METHODS:
+        return "dt", [options["dt"] / 2**level for level in range(levels + 1)]
+    rtol = options.get("rtol", RTOL)
+    tolerances = (rtol / 10**level for level in range(levels + 1))
+    return "rtol", [*takewhile(lambda each: each >= BEST_RTOL, tolerances)] or [rtol]
 
 
 def basis_ladder(model: Model, best: Result, limits: Limits) -> tuple[Ladder, Result]:
@@ -146,7 +156,7 @@ def remedy(model: Model, best: Result, rich: Result) -> Ladder | None:
     shaped = with_static_shapes(model.document)
     if shaped is None or rich is best:
         return None
-    found = model.solved(shaped, "with static shapes", BEST)
+    found = model.solved(shaped, "with static shapes")
     unknown = np.full(len(rich.checks), np.nan)
     return Ladder(
         part="basis",
@@ -161,7 +171,7 @@ def remedy(model: Model, best: Result, rich: Result) -> Ladder | None:
 def _of_mesh(finer: Model, own: Result, limits: Limits) -> Result:
     """Return what another mesh gives, with a basis like that of the case's mesh."""
     if own.response is None or "parts" in finer.document:
-        return finer.solved(finer.document, f"{finer.factor} elements for one", BEST)
+        return finer.solved(finer.document, f"{finer.factor} elements for one")
     return _richest(finer, own.vectors // 2, max(limits.modes, own.vectors))[0]
 
 
@@ -174,9 +184,9 @@ def _richest(model: Model, least: int, most: int) -> tuple[Result, str]:
     *hopes, last = _bases(model, least, most)
     for document, told in hopes:
         with suppress(ComputationError):
-            return model.solved(document, f"{model.factor} elements for one, {told}", BEST), told
+            return model.solved(document, f"{model.factor} elements for one, {told}"), told
     document, told = last
-    return model.solved(document, f"{model.factor} elements for one, {told}", BEST), told
+    return model.solved(document, f"{model.factor} elements for one, {told}"), told
 
 
 def _bases(model: Model, least: int, most: int) -> Iterator[tuple[Document, str]]:
@@ -199,14 +209,14 @@ def _coarser(model: Model, best: Result, limits: Limits, largest: int) -> Iterat
     if isinstance(selection, LowestModes) and selection.count > 1:
         fewer = with_modes(model.document, selection.count // 2)
         with suppress(InputError):  # a reference is of a mode beyond these
-            yield model.solved(fewer, "half the modes", BEST)
+            yield model.solved(fewer, "half the modes")
     yield best
     known = best.vectors
     for level in count(1):
         more, number = _enlarged(selection, 2**level)
         if more is None or number >= min(model.free, limits.modes):
             return
-        found = model.solved(with_modes(model.document, more), f"modes = {more}", BEST)
+        found = model.solved(with_modes(model.document, more), f"modes = {more}")
         if found.vectors >= largest:
             return
         if found.vectors > known:  # a wider band need not hold more

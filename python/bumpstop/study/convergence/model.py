@@ -34,7 +34,10 @@ if TYPE_CHECKING:
     from bumpstop.response import Response
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["Model", "Result"]
+__all__ = ["BEST_RTOL", "Model", "Result"]
+
+BEST_RTOL = 1e-11
+"""Tolerance of the finer models, where the exact method does not apply."""
 
 
 class Result:
@@ -112,8 +115,8 @@ class Model:
             model: LinearModel = built_model(checked_tables(self.document), folder)
             return len(model.free)
 
-    def solved(self, document: Document, label: str, method: str, **options: Any) -> Result:
-        """Return what the model gives as a document describes it.
+    def solved(self, document: Document, label: str) -> Result:
+        """Return what the model gives as a document describes it, by the best method.
 
         Parameters
         ----------
@@ -121,15 +124,13 @@ class Model:
             The content of a case file with the mesh of this model.
         label
             What to call it in error messages.
-        method, options
-            As `bumpstop.simulate` takes them.
         """
         with self._located(label):
             basis, problem = self._builder.variant(checked_tables(document))
-            return self._result(basis, problem, method, **options)
+            return self._result(basis, problem, "auto", rtol=BEST_RTOL)
 
     def as_given(self, method: str, **options: Any) -> Result:
-        """Return what the case gives as it is."""
+        """Return what the case gives as it is, by a method that `bumpstop.simulate` knows."""
         with self._located(f"by the {method} method"):
             problem = self._case.problems.get(self._variant)
             return self._result(self._case.bases[self._variant], problem, method, **options)

@@ -9,16 +9,16 @@ from bumpstop.arguments import count, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.io.case.build import Builder
 from bumpstop.modal.selection import AllModes, LowestModes
-from bumpstop.simulate import FIXED_STEP_METHODS, METHODS
+from bumpstop.simulate import METHODS, OPTIONS
 from bumpstop.study.convergence.ladders import (
-    BEST,
+    EXACT,
     Limits,
     basis_ladder,
     mesh_ladder,
     remedy,
     time_ladder,
 )
-from bumpstop.study.convergence.model import Model
+from bumpstop.study.convergence.model import BEST_RTOL, Model
 from bumpstop.study.convergence.result import Convergence, VariantConvergence
 
 if TYPE_CHECKING:
@@ -118,12 +118,11 @@ def _method(
 ) -> tuple[str, dict[str, Any]]:
     """Return the method of a variant and its options."""
     if variant not in case.methods:
-        return BEST, {}
+        return "auto", {}
     own, options = case.methods[variant]
     chosen = method or own
-    if chosen not in FIXED_STEP_METHODS:
-        return chosen, {}
-    return chosen, dict(options) | ({} if dt is None else {"dt": dt})
+    given = dict(options) | ({} if dt is None else {"dt": dt})
+    return chosen, {key: value for key, value in given.items() if key in OPTIONS[chosen]}
 
 
 def _variant(
@@ -136,8 +135,9 @@ def _variant(
     chosen, options = method
     tell(f"{name}: time")
     own = model.as_given(chosen, **options)
-    best = model.as_given(BEST) if chosen in FIXED_STEP_METHODS else own
-    time = time_ladder(model, own, best, options.get("dt"), limits.levels)
+    is_exact = own.response is None or own.response.method == EXACT
+    best = own if is_exact else model.as_given("auto", rtol=BEST_RTOL)
+    time = time_ladder(model, own, best, options, limits.levels)
     tell(f"{name}: basis")
     basis, rich = basis_ladder(model, best, limits)
     shaped = remedy(model, best, rich)
