@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bumpstop.io.matrices import read_matrices, write_matrices
     from bumpstop.io.meshes import read_mesh
     from bumpstop.io.modes import identify_modes, read_modes
+    from bumpstop.io.stored import read_netcdf
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hertz_stop import HertzStop
     from bumpstop.laws.rigid_stop import RigidStop
@@ -205,6 +206,7 @@ __all__ = [
     "read_matrices",
     "read_mesh",
     "read_modes",
+    "read_netcdf",
     "recovery",
     "response_spectrum",
     "sampled_impacts",
@@ -319,6 +321,7 @@ _HOME = {
     "read_matrices": "io.matrices",
     "read_mesh": "io.meshes",
     "read_modes": "io.modes",
+    "read_netcdf": "io.stored",
     "recovery": "post.recovery",
     "response_spectrum": "post.response_spectrum",
     "sampled_impacts": "post.sampled",

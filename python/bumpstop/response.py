@@ -422,6 +422,18 @@ class Response:
 
         write_netcdf(self, path, title=title, case=case, variant=variant)
 
+    def equals(self, other: Response) -> bool:
+        """Return whether another response tells the same, to the bit.
+
+        The same instants; at them the same motion of every mode, the same forces, gaps and their
+        rates, states and energies; the same impacts and events; the same account of the method
+        (steps, certificate, bounds, residual, options); and problems that say the same, from
+        which all else follows. How long it took does not count, nor what is between the instants.
+        """
+        from bumpstop.post.equality import equal_responses
+
+        return equal_responses(self, other)
+
     def export(self, path: str | PathLike[str], form: str | None = None) -> None:
         """Write the response, tabulated at its times, in a format that other programs read.
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
-from bumpstop.io.netcdf_format import Variable, write_file
+from bumpstop.io.netcdf_format import Growth, Variable, write_file
 from bumpstop.post.energy import ledger
 from bumpstop.projection import TRANSLATIONS, along
 from bumpstop.quantities import (
@@ -33,11 +33,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bumpstop.arguments import FloatArray
+    from bumpstop.problem import Problem
     from bumpstop.response import Response
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["write_netcdf"]
+__all__ = ["states_of", "write_netcdf"]
 
+MOST_NUMBERS = 10_000_000
+"""Modes and dofs times instants, of which a block has no more; each makes some ten numbers."""
+MOST_SHAPES = 2_000_000
+"""Numbers in the shapes of the largest basis that is kept with its response."""
 TIME = {"units": "s", "long_name": "time"}
 
 
@@ -51,12 +56,13 @@ def write_netcdf(
 ) -> None:
     """Write a response, tabulated at its times, to a NetCDF-4 file.
 
-    Over ``time`` the file holds the modal motion, forces and gaps of the stops, with friction
-    also its forces and the states, strains of the gauges, displacements of all mesh nodes along
-    the axes that are free (where the basis knows its structure), motions of the problem's outputs
-    and of the nodes at the stops, and the energy ledger; and beside them tables of impacts and of
-    events. Names, units and attributes follow the CF conventions, version 1.11; attributes of the
-    file say what made it and how.
+    Over ``time`` the file holds the modal motion, forces, gaps and states of the stops, with
+    friction also its forces, strains of the gauges, displacements of all mesh nodes along the
+    axes that are free (where the basis knows its structure), motions of the problem's outputs
+    and of the nodes at the stops, and the energy ledger; beside them tables of impacts and of
+    events, and the problem itself, from which `bumpstop.read_netcdf` makes the response again.
+    Names, units and attributes follow the CF conventions, version 1.11; attributes of the file
+    say what made it and how. Long responses are written block by block.
 
     Parameters
     ----------
@@ -74,11 +80,37 @@ def write_netcdf(
     """
     attributes = {"title": title, "case": case, "variant": variant} | _provenance(response)
     told = {name: value for name, value in attributes.items() if value is not None}
+    length, block = len(response.times), _block(response)
+    first = response if length <= block else response.at(response.times[:block])
+    further = None
+    if length > block:
+        further = Growth("time", length, _further(response, block))
     with written_whole(path) as part:
-        write_file(part, _variables(response), told)
+        write_file(part, [*_over_time(first), *_of_the_run(response)], told, further)
 
 
-def _variables(response: Response) -> Iterator[Variable]:
+def _block(response: Response) -> int:
+    """Return how many instants are held in memory at a time."""
+    basis = response.problem.basis
+    return max(MOST_NUMBERS // (len(basis.omega2) + len(basis.dofs)), 1)
+
+
+def _further(response: Response, block: int) -> Iterator[tuple[int, Iterator[Variable]]]:
+    for start in range(block, len(response.times), block):
+        yield start, _over_time(response.at(response.times[start : start + block]))
+
+
+def _of_the_run(response: Response) -> Iterator[Variable]:
+    yield from _impacts(response)
+    yield from _events(response)
+    if response.problem.laws:
+        words = {"long_name": "what the flags of state mean"}
+        yield Variable("state_name", ("state_flag",), _texts(states_of(response)), words)
+    yield from _problem(response.problem)
+
+
+def _over_time(response: Response) -> Iterator[Variable]:
+    """Give what is a function of time, and what its other dimensions are."""
     # Read once, used by several: reading from the core takes longer than writing.
     motions = [response.motion(derivative) for derivative in range(len(MOTIONS))]
     yield Variable("time", ("time",), response.times, TIME)
@@ -89,8 +121,6 @@ def _variables(response: Response) -> Iterator[Variable]:
     if response.problem.basis.model is not None:
         yield from _nodes(response, response.problem.basis.model, motions[0])
     yield from _energies(response)
-    yield from _impacts(response)
-    yield from _events(response)
 
 
 def _modes(response: Response, motions: list[FloatArray]) -> Iterator[Variable]:
@@ -105,10 +135,13 @@ def _modes(response: Response, motions: list[FloatArray]) -> Iterator[Variable]:
     if basis.coordinates is not None:
         over, told = "vector", {"long_name": "vector of the basis as its user gave it"}
         yield Variable("vector", ("vector",), _texts(basis.labels), told)
-    for name, motion in zip(("modal_displacement", "modal_velocity"), motions, strict=False):
-        values = basis.amplitudes(motion)
+    for quantity, motion in zip(MOTIONS, motions, strict=True):
+        name = f"modal_{quantity}"
         attributes = modal_attributes(name, unit_mass=basis.coordinates is None)
-        yield Variable(name, ("time", over), values, attributes)
+        yield Variable(name, ("time", over), basis.amplitudes(motion), attributes)
+        if basis.coordinates is not None:
+            attributes = modal_attributes(name, unit_mass=True)
+            yield Variable(f"canonical_{quantity}", ("time", "mode"), motion, attributes)
 
 
 def _stops(response: Response) -> Iterator[Variable]:
@@ -117,26 +150,37 @@ def _stops(response: Response) -> Iterator[Variable]:
         return
     yield Variable("stop", ("stop",), _texts(stops), {"long_name": "name of the stop"})
     found = [response.history.law_motion(stop, response.times) for stop in range(len(stops))]
-    distances, _, forces = (np.stack(columns, axis=1) for columns in zip(*found, strict=True))
-    for name, values in (("stop_force", forces), ("gap", distances)):
-        yield Variable(name, ("time", "stop"), values, QUANTITIES[name].attributes)
+    distances, rates, forces = (np.stack(columns, axis=1) for columns in zip(*found, strict=True))
+    told = {name: QUANTITIES[name].attributes for name in ("stop_force", "gap")}
+    told["gap_rate"] = {"units": "m/s", "long_name": "rate of the distance to the stop"}
+    for name, values in (("stop_force", forces), ("gap", distances), ("gap_rate", rates)):
+        yield Variable(name, ("time", "stop"), values, told[name])
     if any(getattr(law, "friction", None) is not None for law in response.problem.laws):
-        yield from _friction(response, stops)
+        slides = np.stack([response.sample("friction_force", stop) for stop in stops], axis=1)
+        attributes = QUANTITIES["friction_force"].attributes
+        yield Variable("friction_force", ("time", "stop"), slides, attributes)
+    yield _states(response, stops)
 
 
-def _friction(response: Response, stops: list[str]) -> Iterator[Variable]:
-    """Give the forces along the obstacles and, as flags of the CF conventions, the states."""
-    over = ("time", "stop")
-    forces = np.stack([response.sample("friction_force", stop) for stop in stops], axis=1)
-    yield Variable("friction_force", over, forces, QUANTITIES["friction_force"].attributes)
-    states = np.stack([response.sample("state", stop) for stop in stops], axis=1)
-    names, numbers = np.unique(states, return_inverse=True)
-    flags: dict[str, Any] = {
+def _states(response: Response, stops: list[str]) -> Variable:
+    """Return the states of the stops, as flags of the CF conventions."""
+    names = states_of(response)
+    number = {name: flag for flag, name in enumerate(names)}
+    flags = [[number[name] for name in response.sample("state", stop)] for stop in stops]
+    attributes: dict[str, Any] = {
         "long_name": STATE.long_name,
-        "flag_values": np.arange(names.size, dtype=np.int32),
-        "flag_meanings": " ".join(re.sub(r"\W+", "_", name) for name in names.tolist()),
+        "flag_values": np.arange(len(names), dtype=np.int32),
+        "flag_meanings": " ".join(re.sub(r"\W+", "_", name) for name in names),
     }
-    yield Variable("state", over, numbers.reshape(states.shape).astype(np.int32), flags)
+    return Variable("state", ("time", "stop"), np.array(flags, dtype=np.int32).T, attributes)
+
+
+def states_of(response: Response) -> list[str]:
+    """Return the words for all states that the laws of a run were in, as the file counts them."""
+    start = (response.sample("state", law.name, times=[0.0]) for law in response.problem.laws)
+    table = response.event_table()
+    words = {str(state) for column in (*start, table["before"], table["after"]) for state in column}
+    return sorted(words)
 
 
 def _gauges(response: Response, displacement: FloatArray) -> Iterator[Variable]:
@@ -231,6 +275,21 @@ def _events(response: Response) -> Iterator[Variable]:
     yield Variable("event_time", ("event",), np.array(table["time"], dtype=float), instant)
     for name, meaning in words.items():
         yield Variable(f"event_{name}", ("event",), _texts(table[name]), {"long_name": meaning})
+
+
+def _problem(problem: Problem) -> Iterator[Variable]:
+    """Give the whole problem, for those who make it again; huge ones are left out."""
+    if problem.basis.shapes.size > MOST_SHAPES:
+        return
+    from bumpstop.io.statement import packed
+
+    try:
+        content = packed(problem)
+    except InputError:  # loads or laws of a user's own
+        return
+    told = {"long_name": "the problem: arrays of NumPy (npz) and a text in JSON, as bytes"}
+    values = np.frombuffer(content, dtype=np.uint8)
+    yield Variable("problem", ("problem_byte",), values, told)
 
 
 def _texts(texts: Iterable[object]) -> NDArray[Any]:

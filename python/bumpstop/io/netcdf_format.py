@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["Variable", "write_file"]
+__all__ = ["Growth", "Variable", "write_file"]
 
 NO_VARIABLE = b"This is a netCDF dimension but not a netCDF variable.%10d"
 """What the format wants a dimension scale to be called that stands for no variable."""
@@ -53,7 +53,22 @@ class Variable(NamedTuple):
         return self.dimensions == (self.name,)
 
 
-def write_file(path: Path, variables: Iterable[Variable], attributes: Mapping[str, Any]) -> None:
+class Growth(NamedTuple):
+    """What follows the first block of variables along one dimension."""
+
+    dimension: str
+    length: int
+    """Of the dimension in the whole file."""
+    blocks: Iterable[tuple[int, Iterable[Variable]]]
+    """Where each block begins, and its variables; those without the dimension are passed over."""
+
+
+def write_file(
+    path: Path,
+    variables: Iterable[Variable],
+    attributes: Mapping[str, Any],
+    further: Growth | None = None,
+) -> None:
     """Write a NetCDF-4 file.
 
     Parameters
@@ -64,26 +79,58 @@ def write_file(path: Path, variables: Iterable[Variable], attributes: Mapping[st
         What it holds; variables that share a dimension must agree on its length.
     attributes
         Strings and numbers that tell about the whole file.
+    further
+        More of the variables that begin with one dimension.
     """
     with h5py.File(path, "w", track_order=True) as file:
         group = file["/"].id
         _set_attributes(group, {"_NCProperties": f"version=2,h5py={h5py.__version__}"})
         _set_attributes(group, attributes)
         listed = list(variables)
-        datasets = {variable.name: _dataset(group, variable) for variable in listed}
-        scales = _scales(group, listed, datasets)
+        lengths = {} if further is None else {further.dimension: further.length}
+        datasets = {variable.name: _dataset(group, variable, lengths) for variable in listed}
+        scales = _scales(group, listed, datasets, lengths)
         for variable in listed:
             _tie(datasets[variable.name], variable, scales)
+        if further is not None:
+            _write_further(further, datasets)
 
 
-def _dataset(group: h5py.h5g.GroupID, variable: Variable) -> h5d.DatasetID:
+def _dataset(
+    group: h5py.h5g.GroupID, variable: Variable, lengths: Mapping[str, int]
+) -> h5d.DatasetID:
     values = np.ascontiguousarray(variable.values).reshape(variable.values.shape)
     stored, in_memory = _types(values.dtype)
-    dataset = _created(group, variable.name, stored, values.shape)
-    if values.size:
+    sizes: tuple[int, ...] = values.shape
+    shape = tuple(
+        lengths.get(dimension, sizes[axis]) for axis, dimension in enumerate(variable.dimensions)
+    )
+    dataset = _created(group, variable.name, stored, shape)
+    if shape != values.shape:
+        _write_rows(dataset, values, in_memory, 0)
+    elif values.size:
         dataset.write(h5s.ALL, h5s.ALL, values, in_memory)
     _set_attributes(dataset, variable.attributes)
     return dataset
+
+
+def _write_further(further: Growth, datasets: Mapping[str, h5d.DatasetID]) -> None:
+    for start, variables in further.blocks:
+        for variable in variables:
+            if variable.dimensions[0] == further.dimension:
+                values = np.ascontiguousarray(variable.values)
+                _write_rows(datasets[variable.name], values, _types(values.dtype)[1], start)
+
+
+def _write_rows(
+    dataset: h5d.DatasetID, values: NDArray[Any], in_memory: h5t.TypeID, start: int
+) -> None:
+    """Write rows from a number on."""
+    if not values.size:
+        return
+    place = dataset.get_space()
+    place.select_hyperslab((start, *(0 for _ in values.shape[1:])), values.shape)
+    dataset.write(h5s.create_simple(values.shape), place, values, in_memory)
 
 
 def _created(
@@ -106,12 +153,16 @@ def _layout(growing: tuple[int, ...]) -> h5p.PropDCID:
 
 
 def _scales(
-    group: h5py.h5g.GroupID, variables: list[Variable], datasets: dict[str, h5d.DatasetID]
+    group: h5py.h5g.GroupID,
+    variables: list[Variable],
+    datasets: dict[str, h5d.DatasetID],
+    whole: Mapping[str, int],
 ) -> dict[str, h5d.DatasetID]:
     """Make a dimension scale of every coordinate, and one for each dimension without."""
     lengths: dict[str, int] = {}
     for variable in variables:
         lengths.update(zip(variable.dimensions, variable.values.shape, strict=True))
+    lengths |= whole
     scales = {}
     for number, (name, length) in enumerate(lengths.items()):
         title = name.encode()
