@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.loads.line_force import LineForce
+    from bumpstop.loads.moving_force import MovingForce
     from bumpstop.loads.nodal_state import NodalState
     from bumpstop.loads.product import Product
     from bumpstop.loads.random_signal import RandomSignal
@@ -144,6 +145,7 @@ __all__ = [
     "ModellingWarning",
     "ModesAround",
     "ModesInBand",
+    "MovingForce",
     "NodalForce",
     "NodalState",
     "PadScar",
@@ -259,6 +261,7 @@ _HOME = {
     "ModellingWarning": "errors",
     "ModesAround": "modal.selection",
     "ModesInBand": "modal.selection",
+    "MovingForce": "loads.moving_force",
     "NodalForce": "loads.force",
     "NodalState": "loads.nodal_state",
     "PadScar": "post.scars",

@@ -377,3 +377,29 @@ def test_nodes_start_with_displacements_and_velocities(tmp_path: Path) -> None:
     (tmp_path / "case.toml").write_text(BEAM + text.replace("{ B =", "{ C ="))
     with pytest.raises(bs.InputError, match=r"initial\.nodal\.displacement: unknown node"):
         bs.load_case(tmp_path / "case.toml")
+
+
+def test_a_force_travels_along_a_beam(tmp_path: Path) -> None:
+    text = (
+        "[basis]\nmodes = 2\n"
+        '[loads.axle]\ntype = "moving_force"\nbeam = "AB"\nforce = [0, 0, "-5 N"]\n'
+        'speed = "360 km/hour"\nenters = "1 ms"\n'
+    )
+    (tmp_path / "case.toml").write_text(BEAM + text)
+    (axle,) = bs.load_case(tmp_path / "case.toml").problems["base"].loads
+    assert isinstance(axle, bs.MovingForce)
+    assert (axle.speed, axle.enters, axle.force) == (100.0, 1e-3, (0.0, 0.0, -5.0))
+    (tmp_path / "case.toml").write_text(BEAM + text.replace('"360 km/hour"', "0"))
+    with pytest.raises(bs.InputError, match=r"loads\.axle\.speed: must not be zero"):
+        bs.load_case(tmp_path / "case.toml")
+
+
+def test_a_stop_of_any_power_may_stand_still(tmp_path: Path) -> None:
+    base = "[base_motion]\ndisplacement = [1e-3, 0, 0]\nharmonics = [{ frequency = 2, sine = 1 }]\n"
+    text = f'{base}frame = "absolute"\n{STOP}exponent = 1.5\nframe = "absolute"\n'
+    problem = case(tmp_path, text)
+    (wall,) = problem.laws
+    assert isinstance(wall, bs.HertzStop)
+    response = bs.simulate(problem)
+    gap = response.sample("gap", "wall") + response.sample("displacement", "B", "dx")
+    np.testing.assert_allclose(gap, 0.1, rtol=1e-12)

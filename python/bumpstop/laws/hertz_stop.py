@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from bumpstop.arguments import FloatArray, finite, not_negative, positive
+from bumpstop.arguments import FloatArray, finite, not_negative, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.laws.contact import Contact
 
@@ -53,6 +53,9 @@ class HertzStop(Contact):
     motion
         How far the obstacle moves along its normal, in m over time: a `Harmonic`, a `Polynomial`,
         a `TimeTable` without jumps, another function of time, or a list of them, which add up.
+    frame
+        Where the obstacle stands while supports move: ``"relative"`` to them, or ``"absolute"``,
+        still on the ground.
 
     Raises
     ------
@@ -90,6 +93,7 @@ class HertzStop(Contact):
     exponent: float = 1.5
     hunt_crossley: float = 0.0
     motion: TimeFunction | Sequence[TimeFunction] = ()
+    frame: str = "relative"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -101,6 +105,7 @@ class HertzStop(Contact):
         object.__setattr__(self, "exponent", exponent)
         damping = not_negative("hunt_crossley", self.hunt_crossley)
         object.__setattr__(self, "hunt_crossley", damping)
+        one_of("frame", self.frame, ("relative", "absolute"))
         if self.motion != ():
             from bumpstop.loads.time import time_functions
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from bumpstop.loads.gravity import Gravity
     from bumpstop.loads.initial import ModalState, RigidRotation
     from bumpstop.loads.line_force import LineForce
+    from bumpstop.loads.moving_force import MovingForce
     from bumpstop.loads.nodal_state import NodalState
     from bumpstop.loads.product import Product
     from bumpstop.loads.random_signal import RandomSignal
@@ -33,6 +34,7 @@ __all__ = [
     "Harmonic",
     "LineForce",
     "ModalState",
+    "MovingForce",
     "NodalForce",
     "NodalState",
     "Polynomial",
@@ -58,6 +60,7 @@ __getattr__ = lazy_names(
         "Harmonic": "time",
         "LineForce": "line_force",
         "ModalState": "initial",
+        "MovingForce": "moving_force",
         "NodalForce": "force",
         "NodalState": "nodal_state",
         "Polynomial": "time",

@@ -34,7 +34,7 @@ ELASTIC = (
 """What a stop that gives way can have."""
 POWER = ("exponent", "hunt_crossley")
 """What makes a stop one whose force is a power of its depth."""
-NOT_POWER = tuple(key for key in ELASTIC if key not in ("stiffness", "motion"))
+NOT_POWER = tuple(key for key in ELASTIC if key not in ("stiffness", "motion", "frame"))
 """What such a stop cannot have."""
 
 

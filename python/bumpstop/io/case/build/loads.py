@@ -19,7 +19,12 @@ if TYPE_CHECKING:
 
 __all__ = ["BASE_MOTION", "built_loads"]
 
-_CLASSES = {"force": "NodalForce", "line_force": "LineForce", "support_motion": "SupportMotion"}
+_CLASSES = {
+    "force": "NodalForce",
+    "line_force": "LineForce",
+    "moving_force": "MovingForce",
+    "support_motion": "SupportMotion",
+}
 BASE_MOTION = "base_motion"
 """Table of the motion of the supports, and the name of the load that it makes."""
 

@@ -12,6 +12,8 @@ from bumpstop.io.case.fields.quantities import (
     Number3,
     PositiveLength,
     PositiveTime,
+    Time,
+    Velocity,
 )
 from bumpstop.io.case.fields.words import BeamName, Node, choice
 from bumpstop.io.case.tables.base_motion import SupportMotionTable
@@ -24,7 +26,14 @@ if TYPE_CHECKING:
 else:
     DensityTable = later("random", "DensityTable")
 
-__all__ = ["ForceTable", "GravityTable", "LineForceTable", "LoadTable", "TurbulenceTable"]
+__all__ = [
+    "ForceTable",
+    "GravityTable",
+    "LineForceTable",
+    "LoadTable",
+    "MovingForceTable",
+    "TurbulenceTable",
+]
 
 
 class ForceTable(TimeKeys):
@@ -54,6 +63,18 @@ class LineForceTable(TimeKeys):
     axes: Annotated[str, choice("global", "local")] = Field(
         default="global", description="Whether components are along X, Y, Z or the beam's own axes"
     )
+
+
+class MovingForceTable(TimeKeys):
+    """A force that travels along a beam at constant speed, and acts while it is on it."""
+
+    type: Literal["moving_force"] = Field(description="Kind of load")
+    beam: BeamName = Field(description="The beam it travels along")
+    force: Force3 = Field(description="Components along X, Y, Z, in N")
+    speed: Velocity = Field(
+        description="In m/s from the first node to the last; negative for the other way"
+    )
+    enters: Time = Field(default=0.0, description="When it enters the beam, in s")
 
 
 class GravityTable(Table):
@@ -91,6 +112,11 @@ class TurbulenceTable(Table):
 
 
 LoadTable = Annotated[
-    ForceTable | LineForceTable | GravityTable | TurbulenceTable | SupportMotionTable,
+    ForceTable
+    | LineForceTable
+    | MovingForceTable
+    | GravityTable
+    | TurbulenceTable
+    | SupportMotionTable,
     Kinds("type"),
 ]
