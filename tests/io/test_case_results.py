@@ -36,8 +36,8 @@ modes = 3
 damping = 0.02
 [stops.wall]
 node = "B"
-normal = [0, -1, 0]
-gap = "0.5 mm"
+normal = [0.6, -0.8, 0]
+gap = "0.4 mm"
 stiffness = "80 kN/m"
 [loads.shaker]
 type = "force"
@@ -69,7 +69,7 @@ RESULTS = {
     "clamp": 'type = "reactions"\nnode = "A"',
     "points": 'type = "poincare"\nnode = "B"\ndof = "dy"\nperiod = 0.142857142857\nstart = 0.5',
     "order": 'type = "lyapunov"\nexponents = 2\nstart = 0.3',
-    "scar": 'type = "wear"\nstop = "wall"\nlaw = "archard"\ncoefficient = 2e-14\n'
+    "scar": 'type = "wear"\nstop = "wall"\nlaw = "archard"\ncoefficient = 2e-18\n'
     'service = ["1 year", "2 year"]\nradius = "9 mm"\nlength = "10 mm"',
 }
 
@@ -92,6 +92,8 @@ def test_every_type_is_shown_in_the_report(tmp_path: Path) -> None:
     write_report(case, responses, {}, page)
     text = page.read_text()
     assert "Work rate at wall" in text
+    assert '"type":"bar"' in text
+    assert '"type":"heatmap"' in text
     assert "Lyapunov exponent 2" in text
     assert "Standard error" in text
     assert "Poincaré section of B dy" in text
@@ -116,9 +118,10 @@ def test_they_read_what_the_functions_read(tmp_path: Path) -> None:
     assert [str(drawn.array.name) for drawn in root.figures] == ["Vy", "Mz"]
     np.testing.assert_array_equal(root.figures[1].array, moment)
     flat = bs.FlatScar(radius=9e-3, length=10e-3)
-    law = bs.ArchardWear(2e-14)
+    law = bs.ArchardWear(2e-18)
     year = 365.25 * 86400.0
     expected_wear = bs.wear(run, "wall", law, [year, 2.0 * year], scar=flat)
+    assert scar.facts[-1].value > 0.0
     assert scar.facts[-1].value == pytest.approx(float(expected_wear["depth"][-1]), rel=1e-3)
 
 

@@ -19,14 +19,14 @@ def array(values: object, dims: tuple[str, ...] = ("time",), units: str = "m") -
 
 def test_a_line_is_scaled_as_its_axes_say() -> None:
     figure = array_figure(array([0.0, 1e-3, 4e-3]))
-    assert figure["layout"]["yaxis"]["title"]["text"] == "reading (mm)"
+    assert figure["layout"]["yaxis"]["title"]["text"] == "Reading (mm)"
     assert figure["data"][0]["y"].tolist() == [0.0, 1.0, 4.0]
     assert figure["layout"]["title"]["text"] == "Reading"
 
 
 def test_compound_units_have_no_prefix() -> None:
     figure = array_figure(array([0.0, 1e-3], units="m^2/Hz"))
-    assert figure["layout"]["yaxis"]["title"]["text"] == "reading (m²/Hz)"
+    assert figure["layout"]["yaxis"]["title"]["text"] == "Reading (m²/Hz)"
     assert figure["data"][0]["y"].tolist() == [0.0, 1e-3]
 
 
@@ -42,7 +42,7 @@ def test_bars_are_as_wide_as_their_classes() -> None:
     )
     figure = array_figure(classes, "bars")
     assert np.allclose(figure["data"][0]["width"], np.full(2, 500.0))
-    assert figure["layout"]["xaxis"]["title"]["text"] == "time (ms)"
+    assert figure["layout"]["xaxis"]["title"]["text"] == "Time (ms)"
 
 
 def test_points_are_not_thinned() -> None:

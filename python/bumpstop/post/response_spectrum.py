@@ -26,8 +26,8 @@ __all__ = ["oscillator", "response_spectrum"]
 Complexes: TypeAlias = NDArray[np.complex128]
 
 QUANTITIES = {
-    "pseudo_acceleration": ("m/s^2", "largest w2 times relative displacement"),
-    "pseudo_velocity": ("m/s", "largest w times relative displacement"),
+    "pseudo_acceleration": ("m/s^2", "largest ω² times relative displacement"),
+    "pseudo_velocity": ("m/s", "largest ω times relative displacement"),
     "relative_displacement": ("m", "largest relative displacement"),
     "relative_velocity": ("m/s", "largest relative velocity"),
     "absolute_acceleration": ("m/s^2", "largest absolute acceleration"),

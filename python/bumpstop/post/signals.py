@@ -92,7 +92,7 @@ def amplitude_spectrum(
         np.abs(lines),
         scipy.fft.rfftfreq(len(values), step),
         signal,
-        "amplitude of {}",
+        "amplitude",
         _units(signal),
         phase=("frequency", np.angle(lines), {"units": "rad"}),
     )
@@ -146,9 +146,8 @@ def power_spectral_density(
         noverlap=_overlap(overlap, length),
         detrend=_scipy_detrend(detrend),
     )
-    units = f"({_units(signal)})^2/Hz"
     return _over_frequency(
-        density, frequency, signal, "power spectral density of {}", units, drawn="line"
+        density, frequency, signal, "power spectral density", _density_units(signal)
     )
 
 
@@ -202,9 +201,9 @@ def spectrogram(
             "frequency": ("frequency", frequency, _HERTZ),
             "time": ("time", times + origin, {"units": "s", "long_name": "time"}),
         },
-        name="spectrogram",
+        name="power spectral density",
         attrs={
-            "units": f"({_units(signal)})^2/Hz",
+            "units": _density_units(signal),
             "long_name": f"power spectral density of {_words(signal)}",
         },
     )
@@ -237,9 +236,8 @@ def _over_frequency(
     values: FloatArray,
     frequency: FloatArray,
     signal: xr.DataArray,
-    words: str,
+    name: str,
     units: str,
-    drawn: str = "line",
     **coordinates: Any,
 ) -> xr.DataArray:
     import xarray as xr
@@ -248,8 +246,8 @@ def _over_frequency(
         values,
         dims="frequency",
         coords={"frequency": ("frequency", frequency, _HERTZ)} | coordinates,
-        name="spectrum",
-        attrs={"units": units, "long_name": words.format(_words(signal)), "drawn": drawn},
+        name=name,
+        attrs={"units": units, "long_name": f"{name} of {_words(signal)}"},
     )
 
 
@@ -259,6 +257,11 @@ def _words(signal: xr.DataArray) -> str:
 
 def _units(signal: xr.DataArray) -> str:
     return str(signal.attrs.get("units", "1"))
+
+
+def _density_units(signal: xr.DataArray) -> str:
+    units = _units(signal)
+    return "1/Hz" if units == "1" else f"({units})^2/Hz"
 
 
 def _detrended(signal: xr.DataArray, detrend: str) -> FloatArray:

@@ -132,9 +132,14 @@ class ContactStatistics:
             "from": (column, edges[:-1], {"units": what.units}),
             "to": (column, edges[1:], {"units": what.units}),
         }
-        attributes = {"units": "1", "long_name": "number of impacts", "stop": self.stop}
+        title = f"Impacts on {self.stop} by {what.long_name}"
+        attributes = STATISTICS["impact_count"].attributes | {"stop": self.stop}
         return xr.DataArray(
-            counts, coords=coordinates, dims=column, name="impacts", attrs=attributes
+            counts,
+            coords=coordinates,
+            dims=column,
+            name="impacts",
+            attrs=attributes | {"drawn": "bars", "title": title},
         )
 
 

@@ -48,7 +48,7 @@ def plot(array: xr.DataArray, kind: str | None = None, *, log: str = "") -> go.F
     >>> import xarray as xr
     >>> rise = xr.DataArray([0.0, 2e-3], coords={"time": [0.0, 0.1]}, name="displacement")
     >>> plot(rise.assign_attrs(units="m")).layout.yaxis.title.text
-    'displacement (mm)'
+    'Displacement (mm)'
     """
     return as_plotly(array_figure(array, kind, log=log))
 
@@ -83,10 +83,11 @@ def _line(array: xr.DataArray, x: Axis, y: Axis) -> dict[str, Any]:
 
 
 def _points(array: xr.DataArray, x: Axis, y: Axis) -> dict[str, Any]:
-    trace = _line(array, x, y) | {"mode": "markers", "marker": {"size": 4}}
+    trace = _line(array, x, y) | {"mode": "markers", "marker": {"size": 6}}
     places = np.asarray(array[str(array.dims[0])].values, dtype=float)
     trace |= {"x": x.scaled(places), "y": y.scaled(array.values)}
     trace["marker"]["color"] = LIGHT["computed"]
+    trace["cliponaxis"] = False
     return trace
 
 
@@ -113,7 +114,7 @@ def _map(array: xr.DataArray, log: str) -> Figure:
     x, y = _axis(across, "x" in log), _axis(down, "y" in log)
     z = _axis(array, "z" in log)
     colours = np.asarray(thinned.values, dtype=float)
-    name = f"{z.name} ({z.scale.unit})"
+    name = f"{z.name.lower()} ({z.scale.unit})"
     if "z" in log:
         colours = np.log10(np.maximum(colours, np.finfo(float).tiny))
         colours = np.maximum(colours, colours.max() - 8.0)
@@ -136,7 +137,8 @@ def _map(array: xr.DataArray, log: str) -> Figure:
 
 def _axis(array: xr.DataArray, log: bool) -> Axis:
     """Return the axis of an array; a logarithmic one keeps SI units, whatever its range."""
-    words = str(array.attrs.get("long_name", array.name))
+    words = str(array.name or array.attrs.get("long_name", "value")).replace("_", " ")
+    words = words[:1].upper() + words[1:]
     unit = shown(str(array.attrs.get("units", "1")))
     known = np.asarray(array.values, dtype=float)
     known = known[np.isfinite(known)]

@@ -47,9 +47,10 @@ class Axis:
 
     def layout(self) -> dict[str, Any]:
         """Return the axis as plotly has it."""
+        unit = "" if self.scale.unit == "1" else f" ({self.scale.unit})"
         return {
             "title": {
-                "text": f"{escape(self.name, quote=False)} ({self.scale.unit})",
+                "text": f"{escape(self.name, quote=False)}{unit}",
                 "standoff": 8,
                 "font": {"size": 12.5},
             },

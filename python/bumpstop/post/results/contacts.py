@@ -59,7 +59,9 @@ class Statistics:
             Fact(what, found.values[name], found.uncertainty[name])
             for name, what in STATISTICS.items()
         ]
-        drawn = [Drawn(found.by_block["impact_rate"].assign_attrs(drawn="points"))]
+        rate = found.by_block["impact_rate"]
+        title = f"Impacts a second on {self.stop}, by blocks of time"
+        drawn = [Drawn(rate.assign_attrs(drawn="points", title=title))]
         if np.isfinite(found.columns["peak_force"]).any():
             drawn.append(Drawn(found.histogram("peak_force")))
         if found["impact_count"]:
