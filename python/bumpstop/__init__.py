@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
+    from bumpstop.laws.zener_damper import ZenerDamper
     from bumpstop.loads.accelerogram import Accelerogram
     from bumpstop.loads.base_motion import BaseMotion
     from bumpstop.loads.density import SpectralDensity
@@ -185,6 +186,7 @@ __all__ = [
     "Tube",
     "Turbulence",
     "WearWork",
+    "ZenerDamper",
     "amplitude_spectrum",
     "bifurcation",
     "campbell",
@@ -301,6 +303,7 @@ _HOME = {
     "Tube": "structure.sections.tube",
     "Turbulence": "loads.turbulence",
     "WearWork": "post.wear",
+    "ZenerDamper": "laws.zener_damper",
     "amplitude_spectrum": "post.signals",
     "bifurcation": "post.poincare",
     "campbell": "modal.rotor",

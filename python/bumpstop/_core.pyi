@@ -157,7 +157,20 @@ class HertzStop:
         self, row: Array, gap: float, stiffness: float, exponent: float, hunt_crossley: float
     ) -> None: ...
 
-Law = Stop | RigidStop | FrictionStop | Spring | HertzStop
+class ZenerDamper:
+    """Springs around a dashpot whose force is a power of its speed, of elongation ``row . q``."""
+
+    def __init__(
+        self,
+        row: Array,
+        in_series: float,
+        in_parallel: float,
+        in_branch: float,
+        damping: float,
+        exponent: float,
+    ) -> None: ...
+
+Law = Stop | RigidStop | FrictionStop | Spring | HertzStop | ZenerDamper
 
 class History:
     """What a run leaves behind; it can be sampled anywhere in [0, duration]."""

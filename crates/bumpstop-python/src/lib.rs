@@ -34,6 +34,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<parts::Forcing>()?;
     module.add_class::<parts::RigidStop>()?;
     module.add_class::<parts::HertzStop>()?;
+    module.add_class::<parts::ZenerDamper>()?;
     module.add_class::<history::History>()?;
     module.add_class::<sparse::SparseFactor>()?;
     module.add_function(wrap_pyfunction!(modes::symmetric_modes, module)?)?;

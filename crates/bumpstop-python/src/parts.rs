@@ -216,6 +216,34 @@ impl HertzStop {
     }
 }
 
+/// Springs around a dashpot whose force is a power of its speed, of elongation `row . q`.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct ZenerDamper(pub law::ZenerDamper);
+
+#[pymethods]
+impl ZenerDamper {
+    #[new]
+    fn new(
+        row: PyReadonlyArray1<f64>,
+        in_series: f64,
+        in_parallel: f64,
+        in_branch: f64,
+        damping: f64,
+        exponent: f64,
+    ) -> PyResult<Self> {
+        let parts = law::Zener {
+            in_series,
+            in_parallel,
+            in_branch,
+            damping,
+            exponent,
+        };
+        law::ZenerDamper::new(values(&row), parts)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
 /// A law of any kind, as Python hands it over.
 #[derive(FromPyObject)]
 pub enum LawPart<'py> {
@@ -224,6 +252,7 @@ pub enum LawPart<'py> {
     Spring(PyRef<'py, Spring>),
     RigidStop(PyRef<'py, RigidStop>),
     HertzStop(PyRef<'py, HertzStop>),
+    ZenerDamper(PyRef<'py, ZenerDamper>),
 }
 
 impl LawPart<'_> {
@@ -235,6 +264,7 @@ impl LawPart<'_> {
             Self::Spring(law) => law.0.clone().into(),
             Self::RigidStop(law) => law.0.clone().into(),
             Self::HertzStop(law) => law.0.clone().into(),
+            Self::ZenerDamper(law) => law.0.clone().into(),
         }
     }
 }

@@ -12,8 +12,9 @@ if TYPE_CHECKING:
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
+    from bumpstop.laws.zener_damper import ZenerDamper
 
-__all__ = ["Friction", "HertzStop", "RigidStop", "SpringLaw", "Stop"]
+__all__ = ["Friction", "HertzStop", "RigidStop", "SpringLaw", "Stop", "ZenerDamper"]
 
 _HOME = {
     "Friction": "friction",
@@ -21,6 +22,7 @@ _HOME = {
     "RigidStop": "rigid_stop",
     "SpringLaw": "spring",
     "Stop": "stop",
+    "ZenerDamper": "zener_damper",
 }
 
 __getattr__ = lazy_names(__name__, _HOME)

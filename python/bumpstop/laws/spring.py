@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, finite, name, not_negative, pair, series
+from bumpstop.arguments import FloatArray, Vector, finite, not_negative, pair, series
 from bumpstop.errors import InputError
-from bumpstop.laws.coordinate import Coordinate, Terms
+from bumpstop.laws.connection import Connection
+from bumpstop.laws.coordinate import Terms
 
 if TYPE_CHECKING:
     from bumpstop import _core
@@ -24,7 +24,7 @@ MOST_SEGMENTS = 255
 
 
 @dataclass(frozen=True)
-class SpringLaw:
+class SpringLaw(Connection):
     """A bilinear or multilinear elastic spring, with a damper beside it.
 
     With the deformation ``x = direction . (u - u_other)`` the force on the node is
@@ -71,25 +71,16 @@ class SpringLaw:
     [-200.0, 0.0, 100.0]
     """
 
-    table: ClassVar[str] = "laws"
-    """Where a problem keeps it, in words for messages."""
+    kind: ClassVar[str] = "spring"
 
-    name: str
     _: KW_ONLY
-    node: str | None = None
-    direction: Vector | None = None
-    other: str | None = None
-    terms: Terms | None = None
     stiffness: Sequence[float]
     breaks: Sequence[float] = ()
     preload: float = 0.0
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        name("name", self.name)
-        if self.coordinate.terms is None:
-            object.__setattr__(self, "direction", self.coordinate.direction)
-        object.__setattr__(self, "terms", self.coordinate.terms)
+        super().__post_init__()
         breaks = series("breaks", self.breaks) if len(self.breaks) else ()
         object.__setattr__(self, "stiffness", series("stiffness", self.stiffness))
         object.__setattr__(self, "breaks", breaks)
@@ -153,29 +144,6 @@ class SpringLaw:
             preload=float(pairs[home, 1] - slopes[home] * pairs[home, 0]),
             damping=damping,
         )
-
-    @cached_property
-    def coordinate(self) -> Coordinate:
-        """The coordinate of its deformation."""
-        return Coordinate.of(self.node, "direction", self.direction, self.other, self.terms)
-
-    def row(self, basis: ModalBasis) -> FloatArray:
-        """Return the deformation per unit of each modal displacement, (N,).
-
-        Raises
-        ------
-        InputError
-            If the basis has no shape at a node, or no mode deforms the spring.
-        """
-        row = self.coordinate.row(basis)
-        if not row.any():
-            raise InputError("no mode deforms this spring", key="node", value=self.node)
-        return row
-
-    def static_force(self, place: float) -> tuple[float, float]:
-        """Return the force in N on the structure, ``place`` m along, at rest, and its slope."""
-        segment = int(np.searchsorted(self.breaks, place, side="right"))
-        return -float(self.force([place])[0]), -self.stiffness[segment]
 
     def core(self, basis: ModalBasis) -> _core.Spring:
         """Return the spring as the core sees it; see `row`."""

@@ -2,7 +2,7 @@
 
 use super::{
     Constraint, FrictionStop, Guard, HertzStop, Law, Local, LocalMotion, Piece, Power, RigidStop,
-    Spring, State, Stop,
+    Spring, State, Stop, ZenerDamper,
 };
 use crate::number::Number;
 use std::borrow::Cow;
@@ -20,6 +20,8 @@ pub enum AnyLaw {
     RigidStop(RigidStop),
     /// An obstacle whose force is a power of the depth.
     HertzStop(HertzStop),
+    /// Springs around a nonlinear dashpot.
+    ZenerDamper(ZenerDamper),
 }
 
 impl From<Stop> for AnyLaw {
@@ -52,6 +54,12 @@ impl From<HertzStop> for AnyLaw {
     }
 }
 
+impl From<ZenerDamper> for AnyLaw {
+    fn from(law: ZenerDamper) -> Self {
+        Self::ZenerDamper(law)
+    }
+}
+
 /// Asks the law inside.
 macro_rules! ask {
     ($self:ident, $law:ident => $answer:expr) => {
@@ -61,6 +69,7 @@ macro_rules! ask {
             Self::Spring($law) => $answer,
             Self::RigidStop($law) => $answer,
             Self::HertzStop($law) => $answer,
+            Self::ZenerDamper($law) => $answer,
         }
     };
 }
@@ -112,6 +121,10 @@ impl Law for AnyLaw {
 
     fn memory_rates(&self, state: State, position: &Local<f64>, velocity: &Local<f64>) -> [f64; 2] {
         ask!(self, law => law.memory_rates(state, position, velocity))
+    }
+
+    fn memory_sizes(&self, position: &Local<f64>) -> [f64; 2] {
+        ask!(self, law => law.memory_sizes(position))
     }
 
     fn piece(&self, state: State) -> Option<Piece> {

@@ -15,6 +15,7 @@ mod rigid_stop;
 mod spring;
 mod state;
 mod stop;
+mod zener_damper;
 
 pub use affine::{Affine, Power};
 pub use any::AnyLaw;
@@ -24,6 +25,7 @@ pub use rigid_stop::RigidStop;
 pub use spring::Spring;
 pub use state::{LocalMotion, State};
 pub use stop::Stop;
+pub use zener_damper::{Zener, ZenerDamper};
 
 use crate::number::Number;
 use std::borrow::Cow;
@@ -114,6 +116,17 @@ pub struct Guard {
     pub function: Affine,
 }
 
+impl Guard {
+    /// One that stays positive.
+    pub const NEVER: Self = Self {
+        name: "never",
+        function: Affine {
+            constant: 1.0,
+            ..Affine::ZERO
+        },
+    };
+}
+
 /// A local nonlinearity.
 pub trait Law: Clone + Send + Sync {
     /// Whether states have a memory that must be kept. A law whose memory is always zero says no.
@@ -164,6 +177,12 @@ pub trait Law: Clone + Send + Sync {
         [0.0; 2]
     }
 
+    /// How large a memory that flows may be in a motion as large as this: a small part of it is no
+    /// error. By default a length like the first coordinate.
+    fn memory_sizes(&self, position: &Local<f64>) -> [f64; 2] {
+        [position[0].abs(); 2]
+    }
+
     /// The state's matrices where it is linear.
     fn piece(&self, state: State) -> Option<Piece>;
 
@@ -183,11 +202,16 @@ pub trait Law: Clone + Send + Sync {
         None
     }
 
-    /// How many guards a state has.
-    fn guard_count(&self, state: State) -> usize;
+    /// How many guards a state has. A law of one state has none, and nothing of what follows to say
+    /// of switches.
+    fn guard_count(&self, _state: State) -> usize {
+        0
+    }
 
     /// One of a state's guards.
-    fn guard(&self, state: State, index: usize) -> Guard;
+    fn guard(&self, _state: State, _index: usize) -> Guard {
+        Guard::NEVER
+    }
 
     /// Whether a guard is curved: no affine function of the local motion. Its value is then
     /// [`Law::guard_value`], and [`Guard::function`] is not looked at.
@@ -213,9 +237,11 @@ pub trait Law: Clone + Send + Sync {
     fn next_state(
         &self,
         state: State,
-        guard: usize,
-        acting: impl Fn(State) -> LocalMotion,
-    ) -> State;
+        _guard: usize,
+        _acting: impl Fn(State) -> LocalMotion,
+    ) -> State {
+        state
+    }
 
     /// Energy stored, in J.
     fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T;
@@ -237,13 +263,17 @@ pub trait Law: Clone + Send + Sync {
     }
 
     /// Energy dissipated at the instant of a switch, in J.
-    fn switch_loss(&self, before: State, after: State, position: &Local<f64>) -> f64;
+    fn switch_loss(&self, _before: State, _after: State, _position: &Local<f64>) -> f64 {
+        0.0
+    }
 
     /// Distance from the obstacle and its rate, for laws that have one.
     fn distance<T: Number>(&self, position: &Local<T>, velocity: &Local<T>) -> (T, T);
 
     /// Whether a state counts as contact in the table of impacts.
-    fn in_contact(&self, state: State) -> bool;
+    fn in_contact(&self, _state: State) -> bool {
+        false
+    }
 
     /// The stiffest linear state, for the stability limits of fixed-step schemes.
     fn stiffest(&self) -> Piece;

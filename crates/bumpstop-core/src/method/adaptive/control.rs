@@ -2,7 +2,8 @@
 //!
 //! The error of each number is measured by the largest that this number has been so far, since a
 //! vibration passes zero over and over. Displacements that are small beside the largest of them
-//! are measured by a part of that, and velocities alike, unless an absolute tolerance is given.
+//! are measured by a part of that, and velocities alike, unless an absolute tolerance is given. A
+//! law's memory is measured so by the motion that it goes with.
 //! The largest ratio counts.
 //!
 //! The controller is proportional and integral: K. Gustafsson, Control theoretic techniques for
@@ -13,6 +14,8 @@ use super::dense::add_weighted;
 use super::equations::Layout;
 use super::pair::Pair;
 use crate::error::{Error, Result};
+use crate::law::Law;
+use crate::problem::Problem;
 
 /// How accurate a run is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,6 +69,8 @@ pub(super) struct Control {
     sizes: Vec<f64>,
     scales: Vec<f64>,
     errors: Vec<f64>,
+    /// What memories are measured by besides, so far and at the end of the step that is tried.
+    floors: [Vec<f64>; 2],
     /// Error of the last step that was taken.
     before: f64,
 }
@@ -78,20 +83,22 @@ impl Control {
             sizes: start[..controlled].iter().map(|x| x.abs()).collect(),
             scales: vec![0.0; controlled],
             errors: vec![0.0; controlled],
+            floors: [0, 1].map(|_| vec![0.0; controlled - 2 * layout.modes]),
             before: LEAST,
         }
     }
 
     /// The error of a step that ends in given numbers, over what is allowed; infinite where the
     /// numbers are out of range.
-    pub(super) fn error(
+    pub(super) fn error<L: Law>(
         &mut self,
         pair: &Pair,
         h: f64,
         stages: &[Vec<f64>],
         end: &[f64],
-        layout: &Layout,
+        (problem, layout): (&Problem<L>, &Layout),
     ) -> f64 {
+        layout.memory_sizes(problem, end, &mut self.floors[1]);
         self.set_scales(end, layout);
         let [first, second] = [0, 1]
             .map(|n| (pair.errors.get(n)).map_or(0.0, |weights| self.largest(h, weights, stages)));
@@ -112,6 +119,10 @@ impl Control {
     pub(super) fn accept(&mut self, pair: &Pair, h: f64, error: f64, end: &[f64]) -> f64 {
         for (size, x) in self.sizes.iter_mut().zip(end) {
             *size = size.max(x.abs());
+        }
+        let [so_far, now] = &mut self.floors;
+        for (floor, now) in so_far.iter_mut().zip(now) {
+            *floor = floor.max(*now);
         }
         let error = error.max(LEAST);
         let [now, last] = EXPONENTS.map(|exponent| exponent / pair.error_order);
@@ -161,8 +172,12 @@ impl Control {
                 };
             }
         }
-        for scale in memories {
-            *scale = absolute.unwrap_or(0.0) + relative * *scale;
+        let [so_far, now] = &self.floors;
+        for (scale, (before, now)) in memories.iter_mut().zip(so_far.iter().zip(now)) {
+            *scale = match absolute {
+                Some(absolute) => absolute + relative * *scale,
+                None => relative * scale.max(SMALL * before.max(*now)),
+            };
         }
     }
 }

@@ -78,6 +78,22 @@ impl Layout {
         }
     }
 
+    /// What errors of each memory are measured by besides its own size.
+    pub(crate) fn memory_sizes<L: Law>(
+        &self,
+        problem: &Problem<L>,
+        numbers: &[f64],
+        to: &mut [f64],
+    ) {
+        for (law, at) in problem.laws.iter().zip(&self.memories) {
+            if let Some(at) = at {
+                let position = project(law, self.motion(numbers)[0]);
+                let sizes = law.memory_sizes(&position);
+                to[at - 2 * self.modes..][..MEMORY].copy_from_slice(&sizes);
+            }
+        }
+    }
+
     /// The energy ledger that the numbers tell.
     pub(crate) fn ledger<L: Law>(
         &self,

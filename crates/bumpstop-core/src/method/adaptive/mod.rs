@@ -160,7 +160,8 @@ impl<'a, L: Law> Run<'a, L> {
                 .attempt(self.pair, self.time, h, &mut self.equations);
             let Stepper { stages, end, .. } = &self.stepper;
             let layout = &self.equations.layout;
-            let error = self.control.error(self.pair, h, stages, end, layout);
+            let equations = (self.problem, layout);
+            let error = (self.control).error(self.pair, h, stages, end, equations);
             if error <= 1.0 {
                 self.h = self.control.accept(self.pair, h, error, &self.stepper.end);
                 return Ok(h);

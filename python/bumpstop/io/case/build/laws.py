@@ -12,10 +12,10 @@ from bumpstop.laws import Stop
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
-    from bumpstop.io.case.tables.laws import LawTable
+    from bumpstop.io.case.tables.laws import LawTable, SpringLawTable
     from bumpstop.io.case.tables.motion import MotionTable
     from bumpstop.io.case.tables.stops import StopTable
-    from bumpstop.laws import HertzStop, RigidStop, SpringLaw
+    from bumpstop.laws import HertzStop, RigidStop, SpringLaw, ZenerDamper
     from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Law
 
@@ -46,7 +46,7 @@ def built_laws(case: CaseFile, folder: Path) -> list[Law]:
             laws.append(_stop(name, table, folder))
     for name, law in case.laws.items():
         with keyed(f"laws.{name}"):
-            laws.append(_spring(name, law))
+            laws.append(_connection(name, law))
     return laws
 
 
@@ -102,7 +102,17 @@ def _motion(table: MotionTable, folder: Path) -> list[TimeFunction]:
     return [scaled(function, table.travel) for function in functions]
 
 
-def _spring(name: str, table: LawTable) -> SpringLaw:
+def _connection(name: str, table: LawTable) -> SpringLaw | ZenerDamper:
+    if table.type == "spring":
+        return _spring(name, table)
+    from bumpstop.laws import ZenerDamper
+
+    given = _given(table)
+    del given["type"]
+    return ZenerDamper(name, **given)
+
+
+def _spring(name: str, table: SpringLawTable) -> SpringLaw:
     from bumpstop.errors import InputError
     from bumpstop.laws import SpringLaw
 
