@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.forms import LinearForm
     from bumpstop.structure.gauge import Gauge
 
-__all__ = ["carried_gauge", "carried_node", "carried_obstacles", "check_supports"]
+__all__ = ["carried_form", "carried_gauge", "carried_node", "carried_obstacles", "check_supports"]
 
 _NOTHING = 1e-12
 """A coordinate that moves less than this, relative to what carries it, stays."""
@@ -46,14 +46,14 @@ def carried_node(
     """
     model = problem.basis.model
     assert model is not None  # without one no load moves supports
-    return _carried(problem, model.displacement_form(node, dof), times, derivative)
+    return carried_form(problem, model.displacement_form(node, dof), times, derivative)
 
 
 def carried_gauge(problem: Problem, gauge: Gauge, times: FloatArray) -> FloatArray:
     """Return the strain of a gauge that supports make as they move apart, (time,)."""
     model = problem.basis.model
     assert isinstance(model, StrainModel)  # the problem has checked its gauges
-    return _carried(problem, model.strain_form(gauge), times, 0)
+    return carried_form(problem, model.strain_form(gauge), times, 0)
 
 
 def check_supports(problem: Problem) -> None:
@@ -84,7 +84,10 @@ def _check_travel(load: MovingSupports, duration: float) -> None:
         raise InputError(error.what, key=key, value=error.value, hint=error.hint) from error
 
 
-def _carried(problem: Problem, form: LinearForm, times: FloatArray, derivative: int) -> FloatArray:
+def carried_form(
+    problem: Problem, form: LinearForm, times: FloatArray, derivative: int = 0
+) -> FloatArray:
+    """Return what supports that move add to a linear form of the displacements, (time,)."""
     total = np.zeros(len(times))
     for load in problem.loads:
         if isinstance(load, MovingSupports) and load.is_absolute and problem.basis.model:

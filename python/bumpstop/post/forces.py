@@ -12,6 +12,7 @@ import numpy as np
 from bumpstop.arguments import FloatArray
 from bumpstop.canonical import velocity_matrix
 from bumpstop.errors import InputError
+from bumpstop.loads.support_motion import SupportMotion
 
 if TYPE_CHECKING:
     from bumpstop.loads.time import TimeFunction
@@ -104,6 +105,9 @@ class Forces:
     def _loads(self) -> Iterator[ForceField]:
         duration = self.response.problem.duration
         for load in self.response.problem.loads:
+            if isinstance(load, SupportMotion):
+                yield self._support_forces(load)
+                continue
             components = load.components(self.basis)
             fields = getattr(load, "nodal_forces", None)
             if fields is None:
@@ -111,6 +115,34 @@ class Forces:
                 raise InputError(what, key=f"loads.{load.name}")
             functions = [each for _, each in components]
             yield ForceField("load", fields(self.model), _sums(functions, duration))
+
+    def _support_forces(self, load: SupportMotion) -> ForceField:
+        """Return the forces on what moves against supports that carry it along, by its inertia."""
+        model, field = self.model, load.field(self.model)
+        rates = [
+            -(model.circulatory @ field),
+            -(model.damping @ field + model.gyroscopic @ field),
+            -(model.mass @ field),
+        ]
+        travel = load.travel(self.response.problem.duration)
+
+        def sizes(times: FloatArray) -> FloatArray:
+            return np.stack([travel.at(times, order) for order in range(3)], axis=1)
+
+        return ForceField("load", np.stack(rates, axis=1), sizes)
+
+    def carried(self, times: FloatArray) -> FloatArray:
+        """Return the displacements by which supports that move differently carry all dofs along.
+
+        They bend the structure, (dofs, time); zero where none do.
+        """
+        problem = self.response.problem
+        total = np.zeros((len(self.model.dofs), len(times)))
+        for load in problem.loads:
+            if isinstance(load, SupportMotion):
+                moved = load.travel(problem.duration).at(times, 0)
+                total += np.outer(load.field(self.model), moved)
+        return total
 
     def _laws(self) -> Iterator[ForceField]:
         for number, law in enumerate(self.response.problem.laws):

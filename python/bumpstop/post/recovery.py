@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bumpstop.arguments import FloatArray, finite
+from bumpstop.carried import carried_form
 from bumpstop.errors import InputError
 from bumpstop.labelled import over_time, time_coordinate
 from bumpstop.modal.unit_motion import unit_motion
@@ -274,17 +275,22 @@ class Recovery:
         return total
 
     def field(self, times: ArrayLike) -> FloatArray:
-        """Return the displacements of all dofs at some times, (dofs, time), in m and rad."""
+        """Return the displacements of all dofs at some times, (dofs, time), in m and rad.
+
+        They are seen from supports that move all together, and else from the still ground.
+        """
         instants = np.asarray(times, dtype=np.float64)
-        total: FloatArray = self.forces.basis.shapes @ self.response.motion(0, instants).T
+        total = self.forces.carried(instants)
+        total += self.forces.basis.shapes @ self.response.motion(0, instants).T
         for each, shapes in self._corrections:
-            total = total + shapes @ each.sizes(instants).T
+            total += shapes @ each.sizes(instants).T
         return total
 
     def read(self, form: LinearForm) -> FloatArray:
         """Return a linear form of the displacements over time, (time,)."""
         times = self.response.times
         values = along(form.of(self.forces.basis.shapes), self.response.motion(0))
+        values = values + carried_form(self.response.problem, form, times)
         for each, shapes in self._corrections:
             values = values + along(form.of(shapes), each.sizes(times))
         return values
