@@ -73,6 +73,7 @@ if TYPE_CHECKING:
     from bumpstop.post.response_spectrum import response_spectrum
     from bumpstop.post.sampled import sampled_impacts
     from bumpstop.post.scars import FlatScar, HoleScar, PadScar
+    from bumpstop.post.sectors import work_by_sector
     from bumpstop.post.signals import (
         amplitude_spectrum,
         envelope,
@@ -219,6 +220,7 @@ __all__ = [
     "stroboscopic_section",
     "wear",
     "wear_work",
+    "work_by_sector",
     "write_matrices",
 ]
 
@@ -336,6 +338,7 @@ _HOME = {
     "stroboscopic_section": "post.poincare",
     "wear": "post.wear",
     "wear_work": "post.wear",
+    "work_by_sector": "post.sectors",
     "write_matrices": "io.matrices",
 }
 """Where each public name lives."""

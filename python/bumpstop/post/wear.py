@@ -28,7 +28,10 @@ __all__ = [
     "KwuEpriWear",
     "WearLaw",
     "WearWork",
+    "sliding_spans",
     "sliding_speed",
+    "spans_within",
+    "time_window",
     "wear",
     "wear_work",
 ]
@@ -111,9 +114,9 @@ def wear_work(
     >>> print(f"{0.5 * bs.wear_work(run, 'floor').work:.3f} J")
     9.000 J
     """
-    first, last = _window(response, start, end)
+    first, last = time_window(response, start, end)
     law = response.law_index(stop)
-    spans = _clipped(_sliding_spans(response, stop), first, last)
+    spans = spans_within(sliding_spans(response, stop), first, last)
     speed = sliding_speed(response, law)
 
     def powers(times: FloatArray) -> FloatArray:
@@ -121,7 +124,7 @@ def wear_work(
         return np.stack([_force(response, law, times) * sliding, sliding], axis=1)
 
     work, distance = integrals_of(response, spans, powers, SMOOTH).sum(axis=0).tolist()
-    loaded = _clipped(loaded_spans(response, stop, 0.0), first, last)
+    loaded = spans_within(loaded_spans(response, stop, 0.0), first, last)
     times, weight = _looks(loaded)
     sliding = speed(times) * _within(times, spans)
     force = _force(response, law, times)
@@ -335,7 +338,7 @@ def _sliding_rows(response: Response, law: Law) -> FloatArray:
     return across
 
 
-def _sliding_spans(response: Response, stop: str) -> Spans:
+def sliding_spans(response: Response, stop: str) -> Spans:
     """Return when a stop is loaded and friction does not hold it."""
     law = response.problem.laws[response.law_index(stop)]
     loaded = loaded_spans(response, stop, 0.0)
@@ -355,7 +358,8 @@ def _sliding_spans(response: Response, stop: str) -> Spans:
     return Spans(marks[:-1][slips], marks[1:][slips])
 
 
-def _window(response: Response, start: float, end: float | None) -> tuple[float, float]:
+def time_window(response: Response, start: float, end: float | None) -> tuple[float, float]:
+    """Return the two ends of a stretch of time, checked."""
     duration = response.problem.duration
     first = not_negative("start", start)
     last = duration if end is None else finite("end", end)
@@ -365,7 +369,8 @@ def _window(response: Response, start: float, end: float | None) -> tuple[float,
     return first, last
 
 
-def _clipped(spans: Spans, first: float, last: float) -> Spans:
+def spans_within(spans: Spans, first: float, last: float) -> Spans:
+    """Return what of some intervals is between two instants."""
     starts, ends = spans.starts.clip(first, last), spans.ends.clip(first, last)
     inside = ends > starts
     return Spans(starts[inside], ends[inside])

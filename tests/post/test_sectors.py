@@ -1,0 +1,70 @@
+"""Work by sectors of a body that whirls in a square hole, and of one that swings on a floor."""
+
+import math
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+
+SIDES = {"east": (-1, 0, 0), "north": (0, -1, 0), "west": (1, 0, 0), "south": (0, 1, 0)}
+
+
+def whirling() -> bs.Response:
+    """A mass on an isotropic spring whirls on a circle that reaches into four walls alike."""
+    shapes = {("P", "dx"): [1.0, 0.0], ("P", "dy"): [0.0, 1.0]}
+    basis = bs.ModalBasis.from_modes(frequency=[2.0, 2.0], damping=0.2, shapes=shapes)
+    walls = [
+        bs.Stop(name, node="P", normal=normal, gap=0.09, stiffness=50.0)
+        for name, normal in SIDES.items()
+    ]
+    turning = [
+        bs.NodalForce("x", node="P", force=(15.0, 0, 0), time=bs.Harmonic(1.0, cosine=1.0)),
+        bs.NodalForce("y", node="P", force=(0, 15.0, 0), time=bs.Harmonic(1.0, sine=1.0)),
+    ]
+    return bs.simulate(bs.Problem(basis, laws=walls, loads=turning, duration=20.0))
+
+
+@pytest.fixture(scope="module")
+def run() -> bs.Response:
+    return whirling()
+
+
+def test_four_walls_get_the_same(run: bs.Response) -> None:
+    found = bs.work_by_sector(run, list(SIDES), sectors=8, axes=("dx", "dy"), start=10.0)
+    total = sum(bs.wear_work(run, name, start=10.0).rate for name in SIDES)
+    assert float(found.sum()) == pytest.approx(total, rel=1e-6)
+    # The motion has the symmetry of the square: quarters are alike, halves of them are not.
+    halves = found.values.reshape(4, 2)
+    np.testing.assert_allclose(halves[:, 0], halves[0, 0], rtol=1e-5)
+    np.testing.assert_allclose(halves[:, 1], halves[0, 1], rtol=1e-5)
+    assert halves[0, 0] > 0.0
+    assert found.attrs["units"] == "W"
+
+
+def test_a_wall_is_worn_on_its_own_side(run: bs.Response) -> None:
+    found = bs.work_by_sector(run, "north", sectors=4, axes=("dx", "dy"), start=10.0)
+    assert found.values[2] == found.values[3] == 0.0
+    assert found.values[0] + found.values[1] == pytest.approx(
+        bs.wear_work(run, "north", start=10.0).rate, rel=1e-6
+    )
+
+
+def test_against_sums_over_samples(run: bs.Response) -> None:
+    found = bs.work_by_sector(run, "east", sectors=12, axes=("dx", "dy"), start=10.0)
+    times = np.linspace(10.0, 20.0, 200_001)
+    x, y = (run.sample("displacement", "P", dof, times=times) for dof in ("dx", "dy"))
+    power = run.sample("stop_force", "east", times=times)
+    power *= np.abs(run.sample("velocity", "P", "dy", times=times))
+    turned = np.mod(np.arctan2(y, x), 2.0 * math.pi)
+    sums, _ = np.histogram(turned, bins=12, range=(0.0, 2.0 * math.pi), weights=power)
+    np.testing.assert_allclose(found, sums / len(times), rtol=1e-3, atol=1e-6 * sums.max())
+
+
+def test_refuses(run: bs.Response) -> None:
+    with pytest.raises(bs.InputError, match="unknown stop"):
+        bs.work_by_sector(run, "up")
+    with pytest.raises(bs.InputError, match="at one node"):
+        bs.work_by_sector(run, [])
+    with pytest.raises(bs.InputError, match="unknown axes"):
+        bs.work_by_sector(run, "east", axes=("dx", "drz"))
