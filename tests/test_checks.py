@@ -142,3 +142,10 @@ def test_a_sum_of_dofs_without_mass_is_refused() -> None:
     stop = bs.Stop("gear", terms={("P", "drx"): 0.1, ("P", "dx"): 1.0}, stiffness=1e4)
     with pytest.raises(bs.InputError, match=r"stops\.gear\.terms: a force here has no mass"):
         bs.Problem(basis, laws=[stop], duration=1.0)
+
+
+def test_many_problems_of_a_basis_ask_the_structure_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    basis = rod(3)
+    first = missing_flexibility(basis, [wall(1.0)])
+    monkeypatch.delattr("bumpstop.modal.static_shapes.StaticShapes.under")
+    assert missing_flexibility(basis, [wall(2.0), wall(1.0)]).tolist() == [*first, *first]

@@ -11,6 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, name, not_negative, one_of, positive, vector
 from bumpstop.errors import InputError
+from bumpstop.loads.along_beam import beam_nodes, model_of
 from bumpstop.loads.load import SingleLoad
 from bumpstop.loads.time import TimeFunction, time_functions
 from bumpstop.projection import TRANSLATIONS
@@ -113,10 +114,7 @@ class LineForce(SingleLoad):
         InputError
             If the basis was not made from beams, or the load is not on the beam.
         """
-        if basis.model is None:
-            hint = "make the basis from a structure"
-            raise InputError("the basis has no beams", key="beam", value=self.beam, hint=hint)
-        return self.nodal_force(basis.model) @ basis.shapes
+        return self.nodal_force(model_of(basis, self.beam)) @ basis.shapes
 
     def nodal_force(self, model: LinearModel) -> FloatArray:
         """Return the force on each dof of a model, (dofs,), in N and N m.
@@ -168,13 +166,7 @@ def points_along(
     InputError
         If there is no such beam, or the length is not on it.
     """
-    if not isinstance(model, BeamModel):
-        raise InputError("the structure has no beams", key="beam", value=beam)
-    try:
-        nodes = model.beam_nodes(beam)
-    except InputError as error:
-        raise InputError(error.what, key="beam", value=beam, hint=error.hint) from error
-    corners = np.array([model.position(node) for node in nodes])
+    corners = np.array([model.position(node) for node in beam_nodes(model, beam)])
     along = np.linalg.norm(corners - corners[0], axis=1)
     last = along[-1] if end is None else end
     for key, value in (("start", start), ("end", last)):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
@@ -12,11 +11,11 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, finite, name, not_negative, vector
 from bumpstop.errors import InputError
+from bumpstop.loads.along_beam import beam_length, beam_nodes, model_of
 from bumpstop.loads.load import ForceComponent
 from bumpstop.loads.product import Product
 from bumpstop.loads.time import TimeFunction, TimeTable, time_functions
 from bumpstop.projection import TRANSLATIONS
-from bumpstop.structure.model import BeamModel
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
@@ -26,7 +25,6 @@ __all__ = ["MovingForce"]
 
 _PARTS = 64
 """Straight lines in each element along which the shapes are followed."""
-_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,10 +100,7 @@ class MovingForce:
         InputError
             If the basis was not made from beams, or has no such beam.
         """
-        model = basis.model
-        if model is None:
-            hint = "make the basis from a structure"
-            raise InputError("the basis has no beams", key="beam", value=self.beam, hint=hint)
+        model = model_of(basis, self.beam)
         known = self._known
         if id(basis) not in known:
             known[id(basis)] = (basis, self._made(basis, model))
@@ -128,14 +123,8 @@ class MovingForce:
 
     def _passed(self, basis: ModalBasis, model: LinearModel) -> tuple[FloatArray, FloatArray]:
         """Return places along the beam in m, (K,), and the force on each mode there, (K, N)."""
-        if not isinstance(model, BeamModel):
-            raise InputError("the structure has no beams", key="beam", value=self.beam)
-        try:
-            nodes = model.beam_nodes(self.beam)
-        except InputError as error:
-            raise InputError(error.what, key="beam", value=self.beam, hint=error.hint) from error
-        length = math.dist(model.position(nodes[0]), model.position(nodes[-1]))
-        at = np.linspace(0.0, length, _PARTS * (len(nodes) - 1) + 1)
+        elements = len(beam_nodes(model, self.beam)) - 1
+        at = np.linspace(0.0, beam_length(model, self.beam), _PARTS * elements + 1)
         rows = np.zeros((len(at), len(basis.omega2)))
         for size, dof in zip(self.force, TRANSLATIONS, strict=True):
             if size != 0.0:

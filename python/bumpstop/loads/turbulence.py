@@ -11,11 +11,11 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, count, name, not_negative, positive, vector
 from bumpstop.errors import InputError
+from bumpstop.loads.along_beam import beam_length, model_of
 from bumpstop.loads.density import SpectralDensity
 from bumpstop.loads.line_force import LineForce
 from bumpstop.loads.load import ForceComponent
 from bumpstop.loads.random_signal import RandomSignal
-from bumpstop.structure.model import BeamModel
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
@@ -117,6 +117,11 @@ class Turbulence:
         InputError
             If the model has no such beam, or the load is not on it.
         """
+        if id(model) not in self._known:
+            self._known[id(model)] = (model, self._placed(model))
+        return self._known[id(model)][1]
+
+    def _placed(self, model: LinearModel) -> FloatArray:
         edges = self._edges(model)
         cells = len(edges) - 1
         unit = [
@@ -137,10 +142,7 @@ class Turbulence:
         InputError
             If the basis was not made from beams, or the load is not on the beam.
         """
-        if basis.model is None:
-            hint = "make the basis from a structure"
-            raise InputError("the basis has no beams", key="beam", value=self.beam, hint=hint)
-        forces = basis.shapes.T @ self.nodal_forces(basis.model)
+        forces = basis.shapes.T @ self.nodal_forces(model_of(basis, self.beam))
         return tuple(
             ForceComponent(np.ascontiguousarray(force), (self._signal(stream),))
             for stream, force in enumerate(forces.T)
@@ -148,13 +150,7 @@ class Turbulence:
 
     def _edges(self, model: LinearModel) -> FloatArray:
         """Return where the cells begin and end, in m from the first node, (cells + 1,)."""
-        if not isinstance(model, BeamModel):
-            raise InputError("the structure has no beams", key="beam", value=self.beam)
-        try:
-            nodes = model.beam_nodes(self.beam)
-        except InputError as error:
-            raise InputError(error.what, key="beam", value=self.beam, hint=error.hint) from error
-        whole = math.dist(model.position(nodes[0]), model.position(nodes[-1]))
+        whole = beam_length(model, self.beam)
         end = whole if self.end is None else self.end
         if not self.start < end <= whole * (1.0 + 1e-9):
             what = f"must be beyond the start, on the beam, which is {whole:g} m long"
@@ -174,6 +170,11 @@ class Turbulence:
                 self.density, seed=self.seed, period=self.period, stream=stream
             )
         return known[stream]
+
+    @cached_property
+    def _known(self) -> dict[int, tuple[LinearModel, FloatArray]]:
+        """Forces found so far, with their models, which keeps the ids from reuse."""
+        return {}
 
     @cached_property
     def _signals(self) -> dict[int, RandomSignal]:
