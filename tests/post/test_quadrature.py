@@ -18,7 +18,7 @@ def test_many_periods_in_one_interval() -> None:
 
 
 def test_a_kink_is_closed_in_upon() -> None:
-    found = integrals(lambda t: np.abs(t - 1.0 / 3.0)[:, None], np.zeros(1), np.ones(1))
+    found = integrals(lambda t: np.abs(t - 1.0 / 3.0)[:, None], np.zeros(1), np.ones(1), 1e-14)
     assert found[0, 0] == pytest.approx(0.5 * (1.0 + 4.0) / 9.0, abs=1e-13)
 
 

@@ -166,7 +166,7 @@ def integrals_of(
     response: Response,
     spans: Spans,
     function: Callable[[FloatArray], FloatArray],
-    tolerance: float = 1e-13,
+    tolerance: float = 1e-11,
 ) -> FloatArray:
     """Return integrals (n, K) over intervals of what has kinks where the response has."""
     cuts = kinks(response)
