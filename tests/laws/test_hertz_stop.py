@@ -112,7 +112,8 @@ def test_without_damping_the_speed_comes_back(exponent: float, speed: float) -> 
     initial = bs.ModalState(displacement=[0.0], velocity=[-speed])
     law = stop(exponent=exponent, stiffness=1e4 * 100**exponent)
     problem = bs.Problem(basis, laws=[law], initial=initial, duration=0.2)
-    impacts = bs.simulate(problem, rtol=1e-9).impact_table()
+    # The mass flies on for up to 0.6 m, which tolerances are relative to, from depths of 1 mm.
+    impacts = bs.simulate(problem, rtol=1e-12).impact_table()
     deepest = ((exponent + 1) * speed**2 / (2 * law.stiffness)) ** (1 / (exponent + 1))
     assert impacts["opening_speed"] == pytest.approx([speed], rel=1e-7)
     assert impacts["peak_force"] == pytest.approx([law.stiffness * deepest**exponent], rel=1e-7)
