@@ -5,6 +5,7 @@
 
 use bumpstop_core::forcing::Forcing;
 use bumpstop_core::law::{Affine, Guard, Law, Local, LocalMotion, Piece, Power, State};
+use bumpstop_core::method::adaptive::{PairName, Tolerances};
 use bumpstop_core::method::{Method, simulate};
 use bumpstop_core::number::Number;
 use bumpstop_core::problem::Problem;
@@ -141,6 +142,10 @@ impl Modes {
     }
 
     fn events(&self, law: &Circle, start: Motion, duration: f64) -> Vec<f64> {
+        self.events_by(Method::Exact, law, start, duration)
+    }
+
+    fn events_by(&self, method: Method, law: &Circle, start: Motion, duration: f64) -> Vec<f64> {
         let rows = [vec![self.factors[0], 0.0], vec![0.0, self.factors[1]]];
         let law = Circle {
             rows,
@@ -151,7 +156,7 @@ impl Modes {
         let forcing = Forcing::constant(vec![0.0; 2]).unwrap();
         let [q, v] = start.map(|x| x.to_vec());
         let problem = Problem::new(system, vec![law], forcing, q, v, duration).unwrap();
-        let history = simulate(&Arc::new(problem), Method::Exact, &mut |_| true).unwrap();
+        let history = simulate(&Arc::new(problem), method, &mut |_| true).unwrap();
         history.events().iter().map(|event| event.time).collect()
     }
 
@@ -173,6 +178,15 @@ impl Modes {
             found.push(from);
         }
     }
+}
+
+/// With a tolerance that tells touches from misses where the scan does.
+fn adaptive(pair: PairName) -> Method {
+    let tolerances = Tolerances {
+        relative: 1e-12,
+        absolute: None,
+    };
+    Method::Adaptive(pair, tolerances)
 }
 
 /// Steps of the scan, in s; the fastest guard has a period of about one.
@@ -250,6 +264,13 @@ proptest! {
         for (a, b) in found.iter().zip(&expected) {
             prop_assert!((a - b).abs() < 1e-9, "{a} {b}");
         }
+        for pair in [PairName::Rk54, PairName::Dop853] {
+            let found = modes.events_by(adaptive(pair), &law, start, 8.0);
+            prop_assert_eq!(found.len(), expected.len(), "{:?} {:?}", found, expected);
+            for (a, b) in found.iter().zip(&expected) {
+                prop_assert!((a - b).abs() < 1e-4, "{a} {b}");
+            }
+        }
     }
 
     /// Where the motion comes nearest to the circle, or goes just beyond it.
@@ -294,6 +315,11 @@ fn a_motion_around_the_centre_never_meets_a_wider_circle() {
     for beyond in [1e-3, 1e-9, 1e-12] {
         let law = circle(1.0 + beyond, 0.0, false);
         assert!(modes.events(&law, start, 20.0).is_empty(), "{beyond}");
+        if beyond > 1e-10 {
+            let method = adaptive(PairName::Dop853);
+            let found = modes.events_by(method, &law, start, 20.0);
+            assert!(found.is_empty(), "{beyond}: {found:?}");
+        }
         let speed = circle(3.0 * (1.0 + beyond), 0.0, true);
         assert!(modes.events(&speed, start, 20.0).is_empty(), "{beyond}");
     }
