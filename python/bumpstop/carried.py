@@ -20,7 +20,14 @@ if TYPE_CHECKING:
     from bumpstop.structure.forms import LinearForm
     from bumpstop.structure.gauge import Gauge
 
-__all__ = ["carried_form", "carried_gauge", "carried_node", "carried_obstacles", "check_supports"]
+__all__ = [
+    "carried_field",
+    "carried_form",
+    "carried_gauge",
+    "carried_node",
+    "carried_obstacles",
+    "check_supports",
+]
 
 _NOTHING = 1e-12
 """A coordinate that moves less than this, relative to what carries it, stays."""
@@ -94,6 +101,22 @@ def carried_form(
             size = float(form.of(load.field(problem.basis.model)))
             if size != 0.0:
                 total += size * load.travel(problem.duration).at(times, derivative)
+    return total
+
+
+def carried_field(problem: Problem, times: FloatArray, derivative: int = 0) -> FloatArray:
+    """Return what supports that move add to the motion of all dofs, (time, dofs).
+
+    Zero where results are told from the supports.
+    """
+    model = problem.basis.model
+    assert model is not None  # without one no load moves supports
+    total = np.zeros((len(times), len(model.dofs)))
+    for load in problem.loads:
+        if isinstance(load, MovingSupports) and load.is_absolute:
+            total += np.outer(
+                load.travel(problem.duration).at(times, derivative), load.field(model)
+            )
     return total
 
 

@@ -211,3 +211,16 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(
         thrown_beam.to_netcdf(tmp_path / "response.nc")
     assert [found.name for found in tmp_path.iterdir()] == ["response.nc"]
     assert (tmp_path / "response.nc").read_text() == "old"
+
+
+def test_nodes_are_told_as_the_supports_carry_them(tmp_path: Path) -> None:
+    case = bs.load_case(Path(__file__).parents[2] / "cases" / "sdnd102a-supports" / "case.toml")
+    response = bs.simulate(case.problems["wall"]).at(np.linspace(0.0, 0.3, 31))
+    response.to_netcdf(tmp_path / "response.nc")
+    with h5py.File(tmp_path / "response.nc") as file:
+        nodes = [name.decode() for name in file["node"][:]]
+        moved = file["displacement"][:, :, 0]
+    for number, node in enumerate(nodes):
+        expected = response.sample("displacement", node, "dx")
+        np.testing.assert_allclose(moved[:, number], expected, atol=1e-18)
+    assert np.abs(moved[:, nodes.index("SQ")]).max() > 2e-4

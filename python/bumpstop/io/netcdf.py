@@ -239,6 +239,11 @@ def _nodes(response: Response, model: LinearModel, motion: FloatArray) -> Iterat
     shapes = np.vstack([basis.shapes, np.zeros(basis.shapes.shape[1])])
     places = np.array([[rows.get((node, dof), -1) for dof in dofs] for node in nodes])
     table = (motion @ shapes[places.ravel()].T).reshape(-1, *places.shape)
+    if response.problem.supports_move:
+        from bumpstop.carried import carried_field
+
+        carried = carried_field(response.problem, response.times)
+        table += np.hstack([carried, np.zeros((len(carried), 1))])[:, places]
     attributes = QUANTITIES["displacement"].attributes | {"coordinates": "x y z"}
     yield Variable("dof", ("dof",), _texts(dofs), {"long_name": "degree of freedom"})
     yield Variable("displacement", ("time", "node", "dof"), table, attributes)
