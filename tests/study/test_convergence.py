@@ -242,6 +242,15 @@ def test_the_most_modes_are_helped_by_static_shapes(sdnl32: bs.Convergence) -> N
         )
 
 
+def test_missing_modes_are_measured_and_not_warned_of(tmp_path: Path) -> None:
+    text = SDNL32.read_text().replace("18e3", "18e6").replace("modes = 10\n", "modes = 3\n")
+    case = written(tmp_path, text)
+    with pytest.warns(bs.ModellingWarning, match="the modes left out would give way"):
+        bs.simulate(case.problems["soft"])
+    found = bs.converge(case, levels=1).variants["soft"]  # warnings are errors here
+    assert found.largest == "basis"
+
+
 def test_all_modes_leave_no_error_of_the_basis(tmp_path: Path) -> None:
     case = written(tmp_path, SDNL32.read_text().replace("modes = 10\n", 'modes = "all"\n'))
     found = bs.converge(case, levels=1).variants["stiff"]

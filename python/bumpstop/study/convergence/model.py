@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bumpstop.arguments import FloatArray
-from bumpstop.errors import ComputationError, InputError
+from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.io.case.build import Builder
 from bumpstop.io.case.build.basis import built_model
 from bumpstop.io.case.load import checked_tables
@@ -138,7 +139,12 @@ class Model:
     def _result(
         self, basis: ModalBasis, problem: Problem | None, method: str, **options: Any
     ) -> Result:
-        response = None if problem is None else simulate(problem, method, **options)
+        if problem is None:
+            return Result(basis, None, self.references)
+        with warnings.catch_warnings():
+            # That modes are missing is what the study measures.
+            warnings.simplefilter("ignore", ModellingWarning)
+            response = simulate(problem, method, **options)
         return Result(basis, response, self.references)
 
     @cached_property
