@@ -1,4 +1,4 @@
-"""Directive ``case-file-keys``: every key of a case file, from the JSON schema."""
+"""Directives ``case-file-keys`` and ``study-file-keys``: every key, from the JSON schema."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -9,17 +9,38 @@ from sphinx.util.docutils import SphinxDirective
 from sphinx.util.typing import ExtensionMetadata
 
 from bumpstop.io.schema import case_schema
+from bumpstop.study.schema import study_schema
 
 Schema = dict[str, Any]
 
 
-class CaseFileKeys(SphinxDirective):
-    """One section a table of the case file, with its keys."""
+class FileKeys(SphinxDirective):
+    """One section a table of the file, with its keys."""
+
+    def schema(self) -> Schema:
+        """Return the schema of the file."""
+        raise NotImplementedError
 
     def run(self) -> list[nodes.Node]:
         """Write the sections as Markdown and let the page's parser read them."""
-        text = "\n".join(Reference(case_schema()).sections())
+        text = "\n".join(Reference(self.schema()).sections())
         return self.parse_text_to_nodes(text, allow_section_headings=True)
+
+
+class CaseFileKeys(FileKeys):
+    """Those of a case file."""
+
+    def schema(self) -> Schema:
+        """Return the schema of case files."""
+        return case_schema()
+
+
+class StudyFileKeys(FileKeys):
+    """Those of a study file."""
+
+    def schema(self) -> Schema:
+        """Return the schema of study files."""
+        return study_schema()
 
 
 class Reference:
@@ -141,4 +162,5 @@ def _default(field: Schema) -> str:
 def setup(app: Sphinx) -> ExtensionMetadata:
     """Register the directive."""
     app.add_directive("case-file-keys", CaseFileKeys)
+    app.add_directive("study-file-keys", StudyFileKeys)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -103,6 +103,11 @@ if TYPE_CHECKING:
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
     from bumpstop.study.convergence import Convergence, converge
+    from bumpstop.study.load import load_study
+    from bumpstop.study.outputs import Output
+    from bumpstop.study.parameters import Distribution, Range, Values
+    from bumpstop.study.sampling import Sampling
+    from bumpstop.study.study import Study, open_study, study
 
 __version__ = "0.1.0"
 
@@ -123,6 +128,7 @@ __all__ = [
     "ComputationError",
     "ContactStatistics",
     "Convergence",
+    "Distribution",
     "EdfWear",
     "Expression",
     "FlatScar",
@@ -150,6 +156,7 @@ __all__ = [
     "MovingForce",
     "NodalForce",
     "NodalState",
+    "Output",
     "PadScar",
     "Participation",
     "Periodicity",
@@ -159,6 +166,7 @@ __all__ = [
     "Problem",
     "Product",
     "RandomSignal",
+    "Range",
     "RayleighDamping",
     "Recovery",
     "Rectangle",
@@ -170,6 +178,7 @@ __all__ = [
     "RigidStop",
     "RigidTranslation",
     "Rotation",
+    "Sampling",
     "Section",
     "SpectralDensity",
     "Spring",
@@ -179,6 +188,7 @@ __all__ = [
     "Stop",
     "StructuralDamping",
     "Structure",
+    "Study",
     "SturmCount",
     "Support",
     "SupportMotion",
@@ -186,6 +196,7 @@ __all__ = [
     "TimeTable",
     "Tube",
     "Turbulence",
+    "Values",
     "WearWork",
     "ZenerDamper",
     "amplitude_spectrum",
@@ -203,7 +214,9 @@ __all__ = [
     "identify_modes",
     "impact_section",
     "load_case",
+    "load_study",
     "lyapunov_exponents",
+    "open_study",
     "participation",
     "periodicity",
     "plot",
@@ -218,6 +231,7 @@ __all__ = [
     "simulate",
     "spectrogram",
     "stroboscopic_section",
+    "study",
     "wear",
     "wear_work",
     "work_by_sector",
@@ -241,6 +255,7 @@ _HOME = {
     "ComputationError": "errors",
     "ContactStatistics": "post.statistics",
     "Convergence": "study.convergence",
+    "Distribution": "study.parameters",
     "EdfWear": "post.wear",
     "Expression": "loads.expression",
     "FlatScar": "post.scars",
@@ -268,6 +283,7 @@ _HOME = {
     "MovingForce": "loads.moving_force",
     "NodalForce": "loads.force",
     "NodalState": "loads.nodal_state",
+    "Output": "study.outputs",
     "PadScar": "post.scars",
     "Participation": "modal.masses",
     "Periodicity": "post.poincare",
@@ -277,6 +293,7 @@ _HOME = {
     "Problem": "problem",
     "Product": "loads.product",
     "RandomSignal": "loads.random_signal",
+    "Range": "study.parameters",
     "RayleighDamping": "modal.damping",
     "Recovery": "post.recovery",
     "Rectangle": "structure.sections.rectangle",
@@ -288,6 +305,7 @@ _HOME = {
     "RigidStop": "laws.rigid_stop",
     "RigidTranslation": "loads.translation",
     "Rotation": "modal.substructure.rotation",
+    "Sampling": "study.sampling",
     "Section": "structure.sections.section",
     "SpectralDensity": "loads.density",
     "Spring": "structure.spring",
@@ -297,6 +315,7 @@ _HOME = {
     "Stop": "laws.stop",
     "StructuralDamping": "modal.damping",
     "Structure": "structure.structure",
+    "Study": "study.study",
     "SturmCount": "modal.certificate",
     "Support": "structure.support",
     "SupportMotion": "loads.support_motion",
@@ -304,6 +323,7 @@ _HOME = {
     "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
     "Turbulence": "loads.turbulence",
+    "Values": "study.parameters",
     "WearWork": "post.wear",
     "ZenerDamper": "laws.zener_damper",
     "amplitude_spectrum": "post.signals",
@@ -322,6 +342,8 @@ _HOME = {
     "impact_section": "post.poincare",
     "load_case": "io.case",
     "lyapunov_exponents": "post.lyapunov",
+    "load_study": "study.load",
+    "open_study": "study.study",
     "participation": "modal.masses",
     "periodicity": "post.poincare",
     "plot": "report.arrays",
@@ -336,6 +358,7 @@ _HOME = {
     "simulate": "simulate",
     "spectrogram": "post.signals",
     "stroboscopic_section": "post.poincare",
+    "study": "study.study",
     "wear": "post.wear",
     "wear_work": "post.wear",
     "work_by_sector": "post.sectors",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.problem import Law, Problem
 from bumpstop.response import Response
 
-__all__ = ["METHODS", "simulate"]
+__all__ = ["METHODS", "simulate", "usable_options"]
 
 FIXED_STEP_METHODS = ("symplectic_euler", "central_difference")
 ADAPTIVE_METHODS = ("rk32", "rk54", "dop853")
@@ -146,6 +147,11 @@ def simulate(
     told = {"dt": step, "rtol": relative, "atol": absolute}
     options = {name: value for name, value in told.items() if value is not None}
     return Response(problem, history, times=problem.times, method_reason=reason, options=options)
+
+
+def usable_options(method: str, options: Mapping[str, object]) -> dict[str, Any]:
+    """Return those options, among many, that a method takes."""
+    return {key: value for key, value in options.items() if key in OPTIONS[method]}
 
 
 def _blame_scale(method: str, problem: Problem, error: Exception) -> None:

@@ -213,6 +213,31 @@ def _converge(parser: ArgumentParser) -> Callable[[Namespace], int]:
     return work
 
 
+def _sweep(parser: ArgumentParser) -> Callable[[Namespace], int]:
+    """Make the many runs of a study."""
+    parser.add_argument("study", type=_path, metavar="STUDY.toml", help="The study file.")
+    told = "The zarr store of the results; as the study says if left out."
+    parser.add_argument("--store", type=_path, metavar="DIR", default=None, help=told)
+    told = "How many processes; as many as there are cores if left out."
+    parser.add_argument("--workers", type=int, metavar="N", default=None, help=told)
+    told = "Go on with a store that is there."
+    parser.add_argument("--resume", action="store_true", help=told)
+    _takes_json(parser)
+
+    def work(given: Namespace) -> int:
+        from bumpstop.cli.sweep import sweep_command
+
+        return sweep_command(
+            given.study,
+            store=given.store,
+            workers=given.workers,
+            resume=given.resume,
+            json=given.json,
+        )
+
+    return work
+
+
 def _report(parser: ArgumentParser) -> Callable[[Namespace], int]:
     """Simulate a case and write its report alone."""
     _takes_case(parser)
@@ -243,6 +268,7 @@ COMMANDS: dict[str, Callable[[ArgumentParser], Callable[[Namespace], int]]] = {
     "modes": _modes,
     "verify": _verify,
     "converge": _converge,
+    "sweep": _sweep,
     "report": _report,
     "schema": _schema,
 }

@@ -1,4 +1,4 @@
-"""A progress bar for runs that take longer than a second."""
+"""Progress bars for what takes longer than a second."""
 
 from __future__ import annotations
 
@@ -6,8 +6,12 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from time import monotonic
+from typing import TYPE_CHECKING
 
-__all__ = ["progress_display"]
+if TYPE_CHECKING:
+    from bumpstop.study.execution import Progress
+
+__all__ = ["progress_display", "runs_display"]
 
 PATIENCE = 1.0
 """Seconds before a bar appears."""
@@ -44,3 +48,36 @@ def _bar(title: str, display: ExitStack) -> Callable[[float], None]:
     bar = display.enter_context(Progress(console=Console(stderr=True), transient=True))
     task = bar.add_task(title, total=1.0)
     return lambda fraction: bar.update(task, completed=fraction)
+
+
+@contextmanager
+def runs_display(title: str) -> Iterator[Callable[[Progress], None] | None]:
+    """Give a function to be told how many runs are made, if anybody can see it.
+
+    It shows their rate, the time left, and how many failed.
+    """
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import Progress as Display
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("{task.fields[told]}"),
+        TimeRemainingColumn(),
+    )
+    started = monotonic()
+    with Display(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(title, total=None, told="")
+
+        def tell(progress: Progress) -> None:
+            rate = progress.made / max(monotonic() - started, 1e-9)
+            failed = f", {progress.failed} failed" if progress.failed else ""
+            told = f"{rate:.3g} a second{failed}"
+            bar.update(task, total=progress.runs, completed=progress.done, told=told)
+
+        yield tell

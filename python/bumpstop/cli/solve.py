@@ -5,17 +5,16 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from bumpstop.arguments import did_you_mean, positive
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.io.case import Case
-from bumpstop.io.case.case import MethodOptions
 from bumpstop.post.references import Check, check_frequencies, check_references
 from bumpstop.response import Response
-from bumpstop.simulate import FIXED_STEP_METHODS, METHODS, OPTIONS, simulate
+from bumpstop.simulate import FIXED_STEP_METHODS, METHODS, simulate, usable_options
 
 __all__ = [
     "CaseResult",
@@ -107,9 +106,9 @@ def _solved(case: Case, name: str, stepping: Stepping, progress: Progress) -> Va
         return VariantResult(name, None, frequency_checks(case, name))
     own_method, options = case.methods[name]
     chosen = stepping.method or own_method
-    used = _usable(chosen, options)
+    used = usable_options(chosen, options)
     if stepping.dt is not None:
-        used = MethodOptions(**used | {"dt": stepping.dt})
+        used["dt"] = stepping.dt
     with _located(case, name), progress(f"{case.name}, {name}") as tell:
         with warnings.catch_warnings():
             # They are among the remarks, which are printed.
@@ -117,12 +116,6 @@ def _solved(case: Case, name: str, stepping: Stepping, progress: Progress) -> Va
             response = simulate(case.problems[name], chosen, progress=tell, **used)
         checks = check_references(response, case.references[name])
     return VariantResult(name, response, checks)
-
-
-def _usable(method: str, options: MethodOptions) -> MethodOptions:
-    """Return the options that a method takes."""
-    used = {key: value for key, value in options.items() if key in OPTIONS[method]}
-    return cast(MethodOptions, used)
 
 
 def frequency_checks(case: Case, variant: str) -> list[Check]:

@@ -1,4 +1,4 @@
-"""The JSON schema of case files, which editors check and complete them with."""
+"""JSON schemas of case files and their like, which editors check and complete them with."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from typing import Any
 
 from bumpstop.io.case.tables.case_file import CaseFile
 from bumpstop.io.case.tables.models import model_of
+from bumpstop.io.case.tables.table import Table
 
-__all__ = ["case_schema"]
+__all__ = ["case_schema", "schema_of"]
 
 
 def case_schema() -> dict[str, Any]:
@@ -18,11 +19,17 @@ def case_schema() -> dict[str, Any]:
     >>> case_schema()["title"]
     'bumpstop case'
     """
-    schema = _without_null(model_of(CaseFile).model_json_schema())
+    return schema_of(CaseFile, "bumpstop case")
+
+
+def schema_of(table: type[Table], title: str) -> dict[str, Any]:
+    """Return the JSON schema (draft 2020-12) of a file that holds what a table says."""
+    annotation: Any = table  # to mypy, a class of tables has no hash to cache by
+    schema = _without_null(model_of(annotation).model_json_schema())
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **schema,
-        "title": "bumpstop case",
+        "title": title,
     }
 
 

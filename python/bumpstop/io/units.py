@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from pint import Unit, UnitRegistry
 
-__all__ = ["Dimension", "read_quantity", "si_factor"]
+__all__ = ["Dimension", "read_number_of_any_unit", "read_quantity", "si_factor"]
 
 # Compiled by the functions that use them, since most case files have no unit.
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
@@ -108,12 +108,35 @@ def si_factor(unit: str, dimension: Dimension | None = None) -> float:
     """
     if dimension is not None:
         return _in_range(unit, _factor(unit, unit, dimension))
+    return _in_range(unit, _base_factor(unit))
+
+
+def read_number_of_any_unit(text: str) -> float:
+    """Return the SI value of a number written with a unit, whatever it measures.
+
+    Raises
+    ------
+    InputError
+        If the text is not a number with a unit that is known.
+
+    Examples
+    --------
+    >>> read_number_of_any_unit("18 kN/m"), read_number_of_any_unit("20 us")
+    (18000.0, 2e-05)
+    """
+    from fractions import Fraction
+
+    match = re.fullmatch(_NUMBER_AND_UNIT, text) if len(text) <= _LONGEST else None
+    if match is None or not match[2]:
+        raise InputError("is not a number with a unit", value=text, hint="such as '18 kN/m'")
+    return _in_range(text, Fraction(match[1]) * _base_factor(match[2]))
+
+
+def _base_factor(unit: str) -> Fraction:
     from fractions import Fraction
 
     try:
-        return _in_range(unit, Fraction(_registry().Quantity(1, _parsed(unit)).to_base_units().m))
-    except InputError:
-        raise
+        return Fraction(_registry().Quantity(Fraction(1), _parsed(unit)).to_base_units().m)
     except Exception as error:  # as below
         raise InputError("unknown unit", value=unit, hint="such as 'kN' or 'mm/s^2'") from error
 

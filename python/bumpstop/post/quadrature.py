@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -105,11 +106,18 @@ def _tables(problem: Problem) -> list[TimeTable]:
     return [term for term in terms if isinstance(term, TimeTable)]
 
 
+@cache
+def _rule() -> tuple[FloatArray, FloatArray]:
+    """Return the nodes between -1 and 1 and their weights, found once."""
+    nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+    return nodes, weights
+
+
 def _panels(
     function: Callable[[FloatArray], FloatArray], starts: FloatArray, ends: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return integrals by one panel each, and those of the magnitude, (m, K)."""
-    nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+    nodes, weights = _rule()
     half = 0.5 * (ends - starts)
     times = (0.5 * (starts + ends))[:, np.newaxis] + half[:, np.newaxis] * nodes
     values = function(times.ravel())

@@ -23,6 +23,7 @@ from bumpstop.quantities import (
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.problem import Problem
     from bumpstop.response import Response
 
 __all__ = [
@@ -31,6 +32,7 @@ __all__ = [
     "Reference",
     "check_frequencies",
     "check_references",
+    "computed",
 ]
 
 TARGETS = ("node", "dof", "mode", "modes", "stop", "gauge", "term", "impact")
@@ -152,6 +154,39 @@ class Reference:
             return STATISTICS[self.quantity].units
         return QUANTITIES[self.quantity].units
 
+    def check_target(self, problem: Problem) -> None:
+        """Check that a problem has what this is of, for long enough.
+
+        Raises
+        ------
+        InputError
+            If it has no such mode, node, stop or gauge, or ends before the last instant.
+        """
+        self.check_modes(problem.basis)
+        if len(self.times) and self.times[-1] > problem.duration:
+            raise InputError(
+                "is after the end of the run",
+                key=f"times.{len(self.times) - 1}",
+                value=self.times[-1],
+                hint=f"run.duration is {problem.duration:g} s",
+            )
+        if self.node is not None:
+            problem.basis.row(self.node, str(self.dof))
+        if self.stop is not None:
+            one_of("stop", self.stop, [law.name for law in problem.laws])
+        if self.gauge is not None:
+            one_of("gauge", self.gauge, [gauge.name for gauge in problem.gauges])
+
+    def check_modes(self, basis: ModalBasis) -> None:
+        """Raise an InputError where a basis has no such mode."""
+        for number, mode in enumerate(self.modes or ()):
+            if mode > len(basis.omega2):
+                key = f"modes.{number}"
+                raise InputError(f"must be at most {len(basis.omega2)}", key=key, value=mode)
+        modes = len(basis.labels)
+        if self.mode is not None and self.mode > modes:
+            raise InputError(f"must be at most {modes}", key="mode", value=self.mode)
+
     def _take_modes(self) -> None:
         """Take a single mode as a list of one."""
         if self.mode is not None:
@@ -267,7 +302,7 @@ def check_references(response: Response, references: Iterable[Reference]) -> lis
         if reference.modes is not None:
             checks += check_frequencies(response.problem.basis, [reference])
             continue
-        times, values = _computed(response, reference)
+        times, values = computed(response, reference)
         for time, value, published in zip(times, values, reference.values, strict=True):
             checks.append(_check(reference, float(time), float(value), published))
     return checks
@@ -297,8 +332,11 @@ def check_frequencies(basis: ModalBasis, references: Iterable[Reference]) -> lis
     return checks
 
 
-def _computed(response: Response, reference: Reference) -> tuple[FloatArray, FloatArray]:
-    """Return instants and computed values, each (n,)."""
+def computed(response: Response, reference: Reference) -> tuple[FloatArray, FloatArray]:
+    """Return instants in s and the values of a response there, each (n,); not for frequencies.
+
+    NaN stand for an impact that there was not.
+    """
     times = np.array(reference.times)
     if reference.impact is not None:
         return _of_impact(response, reference)

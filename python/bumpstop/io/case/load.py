@@ -29,7 +29,7 @@ from bumpstop.problem import Problem
 if TYPE_CHECKING:
     from bumpstop.post.results.reading import Result
 
-__all__ = ["checked_tables", "load_case", "with_components"]
+__all__ = ["checked_tables", "load_case", "method_of", "with_components"]
 
 BASE = "base"
 """Name of the one variant of a case without variants."""
@@ -69,7 +69,7 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
     documents = _documents(document, base, file.parent) or {BASE: whole}
     variants = _variants(documents, base, file.parent)
     bases, problems = _built(variants, base, file.parent)
-    method = _method(base.run) if base.run is not None else Method("auto", {})
+    method = method_of(base.run) if base.run is not None else Method("auto", {})
     name = _readable(file.absolute().parent.name)
     return Case(
         name=name,
@@ -80,7 +80,7 @@ def _case(file: Path, document: dict[str, Any]) -> Case:
         problems=problems,
         references=build_references(base.references, bases, problems),
         methods={
-            variant: _method(tables.run) for variant, tables in variants.items() if tables.run
+            variant: method_of(tables.run) for variant, tables in variants.items() if tables.run
         },
         method=method.name,
         method_options=method.options,
@@ -118,7 +118,8 @@ def _readable(name: str) -> str:
     return os.fsencode(name).decode(errors="replace")
 
 
-def _method(run: RunTable) -> Method:
+def method_of(run: RunTable) -> Method:
+    """Return how the time of a case is integrated."""
     options: MethodOptions = {"beyond_stability_limit": run.beyond_stability_limit}
     if run.dt is not None:
         options["dt"] = run.dt

@@ -65,9 +65,9 @@ def _reference(table: ReferenceTable, basis: ModalBasis, problem: Problem | None
         sampled=table.sampled,
         source=table.source,
     )
-    _check_modes(target, basis)
+    target.check_modes(basis)
     if problem is not None:
-        _check_problem(target, problem)
+        target.check_target(problem)
     elif target.modes is None:
         hint = "without [run] there are frequencies alone"
         raise InputError("is never computed", key="quantity", value=target.quantity, hint=hint)
@@ -107,32 +107,3 @@ def _ascending(times: Sequence[float]) -> Sequence[float]:
         if later <= earlier:
             raise InputError("times must ascend", key=f"times.{number}", value=later)
     return times
-
-
-def _check_modes(reference: Reference, basis: ModalBasis) -> None:
-    """Raise where the basis has no such mode."""
-    for number, mode in enumerate(reference.modes or ()):
-        if mode > len(basis.omega2):
-            key = f"modes.{number}"
-            raise InputError(f"must be at most {len(basis.omega2)}", key=key, value=mode)
-    modes = len(basis.labels)
-    if reference.mode is not None and reference.mode > modes:
-        raise InputError(f"must be at most {modes}", key="mode", value=reference.mode)
-
-
-def _check_problem(reference: Reference, problem: Problem) -> None:
-    """Raise where the problem has no such node, stop or gauge, or ends earlier."""
-    times = reference.times
-    if len(times) and times[-1] > problem.duration:
-        raise InputError(
-            "is after the end of the run",
-            key=f"times.{len(times) - 1}",
-            value=times[-1],
-            hint=f"run.duration is {problem.duration:g} s",
-        )
-    if reference.node is not None:
-        problem.basis.row(reference.node, str(reference.dof))
-    if reference.stop is not None:
-        one_of("stop", reference.stop, [law.name for law in problem.laws])
-    if reference.gauge is not None:
-        one_of("gauge", reference.gauge, [gauge.name for gauge in problem.gauges])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,9 +23,9 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.run import RunTable
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["Builder"]
+__all__ = ["STRUCTURE", "Builder"]
 
-_STRUCTURE = (*SOURCES, *keys_of(StructureTables), "components", "joints", "basis")
+STRUCTURE = (*SOURCES, *keys_of(StructureTables), "components", "joints", "basis")
 """Tables that the modes are made of."""
 
 _IN_TIME = ("stops", "laws", "loads", "base_motion", "initial", "gauges", "outputs", "results")
@@ -38,11 +39,22 @@ class Builder:
     ----------
     folder
         Where the case file is: paths in it are relative to that.
+    known
+        Tables whose modes are known already, with these modes.
+    most
+        Modes of the last so many structures are kept; of all where left out.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        known: Sequence[tuple[CaseFile, ModalBasis]] = (),
+        most: int | None = None,
+    ) -> None:
         self._folder = folder
-        self._bases: list[tuple[CaseFile, ModalBasis]] = []
+        self._bases = list(known)
+        self._most = most
 
     def variant(self, case: CaseFile) -> tuple[ModalBasis, Problem | None]:
         """Return the modes that the tables describe, and the problem where they have ``[run]``.
@@ -97,14 +109,16 @@ class Builder:
         for known, basis in self._bases:
             if _same_basis(known, case):
                 return basis
-        require_one_source(case, _STRUCTURE)
+        require_one_source(case, STRUCTURE)
         basis = built_basis(case, self._folder)
         self._bases.append((case, basis))
+        if self._most is not None:
+            del self._bases[: -self._most]
         return basis
 
 
 def _same_basis(one: CaseFile, other: CaseFile) -> bool:
-    same = all(getattr(one, table) == getattr(other, table) for table in _STRUCTURE)
+    same = all(getattr(one, table) == getattr(other, table) for table in STRUCTURE)
     same = same and static_places(one) == static_places(other)
     return same and load_tables(one) == load_tables(other)
 

@@ -1,0 +1,105 @@
+"""Results of a study as an xarray Dataset over the swept parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bumpstop.study.evaluation import FAILED
+from bumpstop.study.layout import Array, unpacked_message
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
+
+__all__ = ["labelled"]
+
+_OWN = ("message", "status")
+
+
+def labelled(
+    definition: Mapping[str, Any], arrays: Mapping[str, Array], values: Mapping[str, NDArray[Any]]
+) -> xr.Dataset:
+    """Return the results of a study.
+
+    Parameters
+    ----------
+    definition
+        What the study is.
+    arrays, values
+        Its arrays, and what is in them.
+
+    Returns
+    -------
+    xarray.Dataset
+        The outputs, whether a run ``failed``, and its ``message``; over the parameters of a
+        grid, or over ``run`` with the parameters beside it. What has not been run yet is NaN.
+    """
+    import xarray as xr
+
+    names = list(definition["parameters"])
+    shaped = _Shape({name: arrays[name] for name in names if "levels" in arrays[name].attributes})
+    found: dict[str, Any] = {}
+    coordinates: dict[str, Any] = dict(shaped.coordinates)
+    for name, array in arrays.items():
+        if name in _OWN:
+            continue
+        if name in names:
+            if name not in coordinates:
+                coordinates[name] = ("run", _worded(values[name], array.attributes))
+            continue
+        attributes = dict(array.attributes)
+        if "times" in attributes:
+            dimension = f"{name}_time"
+            instants = np.array(attributes.pop("times"))
+            told = {"units": "s", "long_name": "time"}
+            coordinates[dimension] = (dimension, instants, told)
+        found[name] = (*shaped.placed(values[name], array.dimensions[1:]), attributes)
+    found["failed"] = shaped.placed(values["status"] == FAILED, ())
+    found["message"] = shaped.placed(_messages(values), ())
+    dataset = xr.Dataset(found, coordinates, attrs={"case": definition["title"]})
+    return dataset.transpose(*names, ...) if shaped.names else dataset
+
+
+class _Shape:
+    """How runs lie in an array: side by side, or on a grid."""
+
+    def __init__(self, grid: Mapping[str, Array]) -> None:
+        # On a grid the arrays stand in the order in which they vary, the slowest first.
+        self.names = tuple(grid)
+        levels: list[Sequence[Any]] = [array.attributes["levels"] for array in grid.values()]
+        self._sizes = tuple(map(len, levels))
+        self.coordinates = {
+            name: (name, _as_coordinate(each))
+            for name, each in zip(self.names, levels, strict=True)
+        }
+
+    def placed(
+        self, values: NDArray[Any], more: Sequence[str]
+    ) -> tuple[tuple[str, ...], NDArray[Any]]:
+        """Return values with the names of their dimensions."""
+        if not self.names:
+            return ("run", *more), values
+        return (*self.names, *more), values.reshape(*self._sizes, *values.shape[1:])
+
+
+def _as_coordinate(levels: Sequence[Any]) -> NDArray[Any]:
+    has_words = any(isinstance(level, str) for level in levels)
+    return np.array(levels, dtype=object if has_words else None)
+
+
+def _worded(numbers: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[Any]:
+    """Return the words that stand for numbers, where they do."""
+    words = attributes.get("words")
+    if words is None:
+        return numbers
+    return np.array([words[number] if number >= 0 else "" for number in numbers], dtype=object)
+
+
+def _messages(values: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    texts = np.full(len(values["status"]), "", dtype=object)
+    for run in np.flatnonzero(values["status"] == FAILED):
+        texts[run] = unpacked_message(values["message"][run])
+    return texts

@@ -1,0 +1,168 @@
+"""From the values of the parameters to what is kept of a run.
+
+What the swept parameters do not touch is read, checked and made once: the tables of the case,
+and its modes. Modes that do depend on them are kept for a while, for the next runs of the same
+structure.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bumpstop.errors import BumpstopError, InputError, ModellingWarning
+from bumpstop.io.case.build import Builder
+from bumpstop.io.case.load import checked_tables, method_of
+from bumpstop.io.case.overrides import overridden
+from bumpstop.simulate import simulate, usable_options
+from bumpstop.study.outputs import Output
+from bumpstop.study.parameters import Level
+
+if TYPE_CHECKING:
+    from bumpstop.arguments import FloatArray
+    from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.modal.basis import ModalBasis
+    from bumpstop.problem import Problem
+
+__all__ = ["FAILED", "GOOD", "Evaluator", "Kept", "Recipe"]
+
+GOOD = 1
+FAILED = 2
+"""How a run ended; 0 is one that has not been made."""
+
+MOST_BASES = 8
+"""Modes of as many structures are kept."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recipe:
+    """All that it takes to make the runs of a study, in this process or another.
+
+    Parameters
+    ----------
+    document
+        What the case file says of the variant, as TOML has it.
+    folder
+        Where the case file is.
+    names
+        Dotted names of the keys that vary.
+    outputs
+        What is kept of each run.
+    known
+        Tables whose modes are known already, with these modes.
+    """
+
+    document: dict[str, Any]
+    folder: Path
+    names: tuple[str, ...]
+    outputs: Mapping[str, Output]
+    known: tuple[tuple[CaseFile, ModalBasis], ...] = ()
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What is kept of some runs, one after the other.
+
+    Parameters
+    ----------
+    values
+        Of each output, (run, ...); NaN where the run failed.
+    status
+        `GOOD` or `FAILED`, (run,).
+    messages
+        Why a run failed; empty for the others.
+    """
+
+    values: dict[str, FloatArray]
+    status: np.ndarray[Any, np.dtype[np.uint8]]
+    messages: list[str] = field(default_factory=list)
+
+    @classmethod
+    def failed(cls, outputs: Mapping[str, Output], messages: Sequence[str]) -> Kept:
+        """Return what is kept of runs that all failed."""
+        number = len(messages)
+        values = {name: np.full((number, *each.shape), np.nan) for name, each in outputs.items()}
+        return cls(values, np.full(number, FAILED, np.uint8), list(messages))
+
+    def put(self, number: int, other: Kept) -> None:
+        """Take over the only run of another, as the one of this number."""
+        for name, values in other.values.items():
+            self.values[name][number] = values[0]
+        self.status[number] = other.status[0]
+        self.messages[number] = other.messages[0]
+
+
+class Evaluator:
+    """Makes the runs of a study."""
+
+    def __init__(self, recipe: Recipe) -> None:
+        self._recipe = recipe
+        self._builder = Builder(recipe.folder, known=recipe.known, most=MOST_BASES)
+        self._base = checked_tables(recipe.document)
+        # What the checks of a whole file need beside the tables that vary.
+        self._swept = {name.partition(".")[0] for name in recipe.names}
+        needed = {*self._swept, "basis"}
+        self._part = {key: each for key, each in recipe.document.items() if key in needed}
+
+    def kept(self, columns: Mapping[str, Sequence[Level]]) -> Kept:
+        """Return what is kept of the runs with these values of the parameters.
+
+        A run that fails does not keep the others from being made.
+        """
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ModellingWarning)  # a line a run helps nobody
+            return self._kept(columns)
+
+    def _kept(self, columns: Mapping[str, Sequence[Level]]) -> Kept:
+        number = len(next(iter(columns.values())))
+        found = Kept.failed(self._recipe.outputs, [""] * number)
+        for run in range(number):
+            try:
+                values = self._values({name: column[run] for name, column in columns.items()})
+            except Exception as error:  # also a mistake of ours: the other runs go on
+                found.messages[run] = _told(error)
+                continue
+            for name, value in values.items():
+                found.values[name][run] = value
+            found.status[run] = GOOD
+        return found
+
+    def built(self, changes: Mapping[str, Level]) -> tuple[ModalBasis, Problem | None, CaseFile]:
+        """Return modes and problem of a run, and the tables that they are made of.
+
+        Raises
+        ------
+        InputError
+            If a value cannot be used.
+        """
+        changed = checked_tables(overridden(self._part, dict(changes)))
+        tables = self._base.replaced(**{key: getattr(changed, key) for key in self._swept})
+        return (*self._builder.variant(tables), tables)
+
+    def _values(self, changes: Mapping[str, Level]) -> dict[str, float | FloatArray]:
+        with np.errstate(over="raise", invalid="raise", divide="raise"):
+            basis, problem, tables = self.built(changes)
+            outputs = self._recipe.outputs
+            if problem is None or tables.run is None:
+                return {name: output.of_modes(basis) for name, output in outputs.items()}
+            method, options = method_of(tables.run)
+            response = simulate(problem, method, **usable_options(method, options))
+            return {name: output.value(response) for name, output in outputs.items()}
+
+
+def _told(error: Exception) -> str:
+    """Return in a line why a run failed."""
+    if isinstance(error, InputError):
+        return str(InputError(error.what, key=error.key, value=error.value, hint=error.hint))
+    if isinstance(error, BumpstopError):
+        return str(error)
+    if isinstance(error, FloatingPointError | OverflowError):
+        return "numbers grew too large or too small to compute with"
+    if isinstance(error, MemoryError):
+        return "not enough memory"
+    return f"this is a mistake in bumpstop itself: {type(error).__name__}: {error}"

@@ -1,0 +1,188 @@
+"""Runs made by several processes at a time.
+
+Each worker has a thread of ours that feeds it and waits for it; the results come in the order in
+which they are ready. A worker that dies takes no run with it: its runs are made again, one by
+one, and only one that kills a second worker has failed.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from queue import Empty, Queue, SimpleQueue
+from subprocess import PIPE, Popen
+from threading import Lock, Thread
+from typing import Any, BinaryIO, NamedTuple, cast
+
+from bumpstop.study.evaluation import Evaluator, Kept, Recipe
+from bumpstop.study.frames import receive, send
+from bumpstop.study.parameters import Level
+
+__all__ = ["Done", "Task", "Worker", "evaluated", "usable_cores"]
+
+_DIED = "the process that made this run died: it was killed, or found no memory"
+
+
+class Task(NamedTuple):
+    """Runs that are made together."""
+
+    chunk: int
+    """Which chunk of the study they are."""
+    columns: Mapping[str, Sequence[Level]]
+    """Values of each parameter, one a run."""
+
+
+class Done(NamedTuple):
+    """A task, and what is kept of its runs."""
+
+    task: Task
+    kept: Kept
+
+
+def usable_cores() -> int:
+    """Return how many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def evaluated(recipe: Recipe, tasks: Sequence[Task], workers: int) -> Iterator[Done]:
+    """Yield what is kept of each task, in the order in which they are done.
+
+    Parameters
+    ----------
+    recipe
+        How runs are made.
+    tasks
+        The runs.
+    workers
+        How many processes; with one, the runs are made in this process.
+    """
+    if workers == 1 or len(tasks) < 2:
+        evaluator = Evaluator(recipe)
+        for task in tasks:
+            yield Done(task, evaluator.kept(task.columns))
+        return
+    todo: SimpleQueue[Task] = SimpleQueue()
+    for task in tasks:
+        todo.put(task)
+    # Bounded, so that results do not pile up where the disk is slower than the workers.
+    done: Queue[Done | Exception] = Queue(maxsize=2 * workers)
+    feeders = [_Feeder(recipe, todo, done) for _ in range(min(workers, len(tasks)))]
+    try:
+        for _ in tasks:
+            found = done.get()
+            if isinstance(found, Exception):
+                raise found
+            yield found
+    finally:
+        for feeder in feeders:
+            feeder.end()
+        _drain(done, feeders)
+
+
+def _drain(done: Queue[Done | Exception], feeders: Sequence[_Feeder]) -> None:
+    """Wait for all feeders, some of which may wait for room for a result that nobody wants."""
+    while any(feeder.thread.is_alive() for feeder in feeders):
+        with suppress(Empty):
+            done.get(timeout=0.01)
+
+
+class _EndedError(Exception):
+    """Nobody wants more results."""
+
+
+class _Feeder:
+    """Takes tasks, has a process make them, and hands over what comes back."""
+
+    def __init__(
+        self, recipe: Recipe, todo: SimpleQueue[Task], done: Queue[Done | Exception]
+    ) -> None:
+        self._recipe = recipe
+        self._todo = todo
+        self._done = done
+        self._ended = False
+        self._worker: Worker | None = None
+        self._lock = Lock()  # of the two above
+        self.thread = Thread(target=self._work, daemon=True)
+        self.thread.start()
+
+    def end(self) -> None:
+        """End the process, at once and for good."""
+        with self._lock:
+            self._ended = True
+            if self._worker is not None:
+                self._worker.end()
+
+    def _work(self) -> None:
+        """Work until nothing is left to do."""
+        try:
+            while True:
+                task = self._todo.get_nowait()
+                self._done.put(Done(task, self._kept(task)))
+        except (Empty, _EndedError):
+            self.end()
+        except Exception as error:  # for the main thread to raise
+            self.end()
+            self._done.put(error)
+
+    def _kept(self, task: Task) -> Kept:
+        found = self._answer(task.columns)
+        return found if found is not None else self._one_by_one(task)
+
+    def _one_by_one(self, task: Task) -> Kept:
+        """Make the runs of a task that has killed a process, each by itself."""
+        number = len(next(iter(task.columns.values())))
+        kept = Kept.failed(self._recipe.outputs, [_DIED] * number)
+        for run in range(number):
+            single = self._answer({name: [column[run]] for name, column in task.columns.items()})
+            if single is not None:
+                kept.put(run, single)
+        return kept
+
+    def _answer(self, columns: Mapping[str, Sequence[Level]]) -> Kept | None:
+        """Return what a process makes of runs; None if it died of them."""
+        with self._lock:
+            if self._ended:
+                raise _EndedError
+            if self._worker is None:
+                self._worker = Worker(self._recipe)
+            worker = self._worker
+        kept = worker.answer(columns)
+        if kept is None:
+            with self._lock:
+                worker.end()
+                self._worker = None
+        return kept
+
+
+class Worker:
+    """A process that makes runs: `bumpstop.study.worker`."""
+
+    def __init__(self, recipe: Recipe) -> None:
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        # In a group of its own, so that Ctrl-C comes to us alone.
+        group = {"process_group": 0} if os.name == "posix" else {}
+        command = [sys.executable, "-m", "bumpstop.study.worker"]
+        self.process = Popen(command, stdin=PIPE, stdout=PIPE, env=environment, **cast(Any, group))
+        with suppress(OSError):  # it died at once: the first answer tells
+            send(cast(BinaryIO, self.process.stdin), recipe)
+
+    def answer(self, columns: Mapping[str, Sequence[Level]]) -> Kept | None:
+        """Return what is kept of runs; None if the process died of them."""
+        try:
+            send(cast(BinaryIO, self.process.stdin), columns)
+            kept: Kept = receive(cast(BinaryIO, self.process.stdout))
+        except (EOFError, OSError, ValueError):  # ValueError: `end` has closed the stream
+            return None
+        return kept
+
+    def end(self) -> None:
+        """End the process."""
+        self.process.kill()
+        self.process.wait()
+        for stream in (self.process.stdin, self.process.stdout):
+            with suppress(OSError):  # of what could not be written any more
+                cast(BinaryIO, stream).close()

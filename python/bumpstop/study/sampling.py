@@ -1,0 +1,185 @@
+"""Which runs a study makes: grids, lists, and samples drawn by chance or spread evenly."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, count, one_of
+from bumpstop.errors import InputError
+from bumpstop.io.case.keys import keyed
+from bumpstop.study.parameters import MOST_RUNS, Level, Parameter
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["SAMPLINGS", "Runs", "Sampling", "planned"]
+
+DRAWN = ("latin_hypercube", "sobol", "monte_carlo")
+SAMPLINGS = ("grid", "list", *DRAWN)
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How values of several parameters are put together to runs.
+
+    Parameters
+    ----------
+    method
+        ``"grid"``: each value with each of the others'. ``"list"``: the first values
+        together, then the second ones, ... ``"latin_hypercube"`` (M. D. McKay, R. J. Beckman,
+        W. J. Conover, *Technometrics* 21, 1979), ``"sobol"`` (scrambled; A. B. Owen, *Journal
+        of Complexity* 14, 1998) and ``"monte_carlo"`` draw samples.
+    count
+        How many samples are drawn; a power of two for ``"sobol"``.
+    seed
+        Another seed draws other samples, the same one the same.
+
+    Raises
+    ------
+    InputError
+        If there is no such method, or it cannot draw so many.
+    """
+
+    method: str = "grid"
+    count: int | None = None
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        one_of("method", self.method, SAMPLINGS)
+        count("seed", self.seed, least=0)
+        if self.method not in DRAWN:
+            if self.count is not None:
+                what = f"a {self.method} has as many runs as its values make"
+                raise InputError(what, key="count", value=self.count)
+            return
+        if self.count is None:
+            raise InputError("is missing", key="count", hint="say how many samples")
+        _check_number("count", count("count", self.count))
+        if self.method == "sobol" and self.count & (self.count - 1):
+            more = 2 ** math.ceil(math.log2(self.count))
+            what = "must be a power of two for Sobol's samples"
+            raise InputError(what, key="count", value=self.count, hint=f"take {more}")
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """What it is, for a study to be known again by."""
+        drawn = self.method in DRAWN
+        return {"method": self.method} | ({"count": self.count, "seed": self.seed} if drawn else {})
+
+
+class Runs:
+    """The values of all parameters in each run.
+
+    Parameters
+    ----------
+    levels
+        The values of each parameter by name.
+    shape
+        How many values each has on a grid, in the order of `levels`; None where the n-th
+        values of all belong together.
+    """
+
+    def __init__(
+        self, levels: Mapping[str, Sequence[Level] | NDArray[Any]], shape: tuple[int, ...] | None
+    ) -> None:
+        self.names = tuple(levels)
+        self.levels = dict(levels)
+        self.shape = shape
+        self.count = math.prod(shape) if shape else len(next(iter(levels.values())))
+
+    def row(self, number: int) -> dict[str, Level]:
+        """Return the values in one run, counted from 0."""
+        numbers = self._numbers(np.array([number]))
+        return {name: _plain(self.levels[name][numbers[name][0]]) for name in self.names}
+
+    def columns(self, start: int, end: int) -> dict[str, list[Level]]:
+        """Return the values of each parameter in the runs from start to before end."""
+        numbers = self._numbers(np.arange(start, end))
+        return {
+            name: [_plain(self.levels[name][number]) for number in numbers[name]]
+            for name in self.names
+        }
+
+    def _numbers(self, runs: NDArray[np.int64]) -> dict[str, Any]:
+        """Return which of its levels each parameter has."""
+        if self.shape is None:
+            return dict.fromkeys(self.names, runs)
+        return dict(zip(self.names, np.unravel_index(runs, self.shape), strict=True))
+
+
+def planned(
+    parameters: Mapping[str, Parameter], sampling: Sampling, slowest: Sequence[str] = ()
+) -> Runs:
+    """Return the runs that a study makes.
+
+    Parameters
+    ----------
+    parameters
+        What varies, by name; at least one.
+    sampling
+        How their values are put together.
+    slowest
+        Parameters that change least often from run to run of a grid.
+
+    Raises
+    ------
+    InputError
+        If the parameters have no values of the kind that the sampling needs, or make too many
+        runs.
+    """
+    if sampling.method in DRAWN:
+        shares = _shares(sampling, len(parameters))
+        drawn = zip(parameters.items(), shares.T, strict=True)
+        return Runs({name: each.quantiles(column) for (name, each), column in drawn}, None)
+    levels = {name: _levels(name, each) for name, each in parameters.items()}
+    if sampling.method == "list":
+        _check_lengths(levels)
+        return Runs(levels, None)
+    ordered = {name: levels[name] for name in sorted(levels, key=lambda name: name not in slowest)}
+    shape = tuple(len(values) for values in ordered.values())
+    _check_number("parameters", math.prod(shape))
+    return Runs(ordered, shape)
+
+
+def _shares(sampling: Sampling, dimensions: int) -> FloatArray:
+    """Return samples of the unit cube, (run, parameter)."""
+    from scipy.stats import qmc
+
+    number = sampling.count or 0
+    generator = np.random.default_rng(sampling.seed)
+    if sampling.method == "monte_carlo":
+        return generator.random((number, dimensions))
+    kind = qmc.Sobol if sampling.method == "sobol" else qmc.LatinHypercube
+    shares: FloatArray = kind(dimensions, rng=generator).random(number)
+    return shares
+
+
+def _levels(name: str, parameter: Parameter) -> list[Level]:
+    with keyed(f'parameters."{name}"'):
+        return parameter.levels
+
+
+def _check_lengths(levels: Mapping[str, Sequence[Level]]) -> None:
+    first, *others = levels
+    for name in others:
+        if len(levels[name]) != len(levels[first]):
+            what = f"has {len(levels[name])} values, and {first!r} has {len(levels[first])}"
+            hint = "a list takes them side by side; a grid combines them"
+            raise InputError(what, key=f'parameters."{name}"', hint=hint)
+
+
+def _check_number(key: str, number: int) -> None:
+    if number > MOST_RUNS:
+        hint = "draw samples, or cut the study into several"
+        raise InputError(f"makes {number:.3g} runs, at most {MOST_RUNS:,}", key=key, hint=hint)
+
+
+def _plain(level: Any) -> Level:
+    """Return a level as Python's own number, as a case file has it."""
+    plain: Level = level.item() if isinstance(level, np.generic) else level
+    return plain

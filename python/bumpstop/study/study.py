@@ -1,0 +1,356 @@
+"""Study: many runs of one case, and `study`, which makes one and runs it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import KW_ONLY, dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bumpstop.arguments import count, did_you_mean, name
+from bumpstop.errors import InputError
+from bumpstop.io.case import Case, load_case
+from bumpstop.io.case.build import STRUCTURE
+from bumpstop.io.case.keys import keyed
+from bumpstop.io.case.load import checked_tables
+from bumpstop.io.case.overrides import overridden
+from bumpstop.study.evaluation import Recipe
+from bumpstop.study.execution import Progress, execute
+from bumpstop.study.layout import Layout
+from bumpstop.study.outputs import Output
+from bumpstop.study.parameters import Parameter, as_parameter
+from bumpstop.study.pool import Task
+from bumpstop.study.sampling import Runs, Sampling, planned
+from bumpstop.study.store import MemoryStore, Store, open_zarr_store, read_store
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["Study", "open_study", "study"]
+
+_TAKEN = ("run", "message", "status", "failed", "character")
+"""Names of what every study has."""
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Many runs of a case, in which some of its keys vary.
+
+    Parameters
+    ----------
+    case
+        A case from a file.
+    parameters
+        What varies: keys of the case by dotted name, such as ``"stops.guide.gap"``, each with
+        a list of values, a `Range` or a `Distribution`.
+    outputs
+        What to keep of each run, by a name of your own.
+    sampling
+        How values are put together to runs; a grid where left out.
+    variant
+        Which variant of the case; needed where it has several.
+    chunk
+        Runs that are made and written together; by the number of runs where left out.
+
+    Raises
+    ------
+    InputError
+        If the case has no such key, unit, variant, node or stop, or there are no runs to make
+        or too many.
+
+    Examples
+    --------
+    >>> import bumpstop as bs
+    >>> many = bs.Study(
+    ...     bs.load_case("cases/sdnl32/case.toml"),
+    ...     {"stops.spring.stiffness": bs.Range("10 kN/m", "100 kN/m", 4)},
+    ...     {"force": bs.Output(quantity="largest_force", stop="spring")},
+    ...     variant="soft",
+    ... )
+    >>> results = many.run()
+    >>> results.force.dims, results.force.attrs["units"]
+    (('stops.spring.stiffness',), 'N')
+    """
+
+    case: Case
+    parameters: Mapping[str, Any]
+    outputs: Mapping[str, Output]
+    _: KW_ONLY
+    sampling: Sampling = Sampling()  # noqa: RUF009  # frozen
+    variant: str | None = None
+    chunk: int | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.case, Case) or not self.case.documents:
+            hint = "load_case gives one"
+            raise InputError("must be a case from a file", key="case", hint=hint)
+        given = {key: _parameter(key, value) for key, value in self.parameters.items()}
+        object.__setattr__(self, "parameters", given)
+        object.__setattr__(self, "outputs", dict(self.outputs))
+        object.__setattr__(self, "variant", _variant(self.case, self.variant))
+        if self.chunk is not None:
+            count("chunk", self.chunk)
+        self._check_parameters()
+        self._check_outputs()
+        _ = self.runs
+
+    @cached_property
+    def document(self) -> dict[str, Any]:
+        """What the case file says of the variant."""
+        # Without changes: what belongs to the case and not to its variants is left out.
+        return overridden(self.case.documents[str(self.variant)], {})
+
+    @cached_property
+    def runs(self) -> Runs:
+        """The values of the parameters in each run."""
+        slowest = [key for key in self.parameters if key.partition(".")[0] in STRUCTURE]
+        return planned(self.parameters, self.sampling, slowest)
+
+    @cached_property
+    def layout(self) -> Layout:
+        """The arrays that its results fill."""
+        return Layout(self.runs, self.outputs, self.chunk)
+
+    @cached_property
+    def recipe(self) -> Recipe:
+        """What it takes to make the runs."""
+        known = (checked_tables(self.document), self.case.bases[str(self.variant)])
+        return Recipe(
+            document=self.document,
+            folder=self.case.path.parent.absolute(),
+            names=self.runs.names,
+            outputs=self.outputs,
+            known=(known,),
+        )
+
+    @cached_property
+    def definition(self) -> dict[str, Any]:
+        """All that the results depend on: two studies with the same one are the same."""
+        from bumpstop import __version__
+
+        return {
+            "title": self.case.title,
+            "bumpstop": __version__,
+            "case": self.document,
+            "files": dict(_digests(self.document, self.case.path.parent)),
+            "parameters": {key: each.record for key, each in self.parameters.items()},
+            "sampling": self.sampling.record,
+            "outputs": {key: each.record for key, each in self.outputs.items()},
+            "chunk": self.layout.chunk,
+        }
+
+    def task(self, chunk: int) -> Task:
+        """Return the runs of a chunk."""
+        part = self.layout.part(chunk)
+        return Task(chunk, self.runs.columns(part.start, part.stop))
+
+    def run(
+        self,
+        store: str | PathLike[str] | None = None,
+        *,
+        workers: int | None = None,
+        resume: bool = False,
+        progress: Callable[[Progress], None] | None = None,
+    ) -> xr.Dataset:
+        """Make all runs, and return what is kept of them.
+
+        Parameters
+        ----------
+        store
+            Folder of a zarr store that is filled as results come; in memory where left out.
+        workers
+            How many processes; as many as there are cores where left out. Results do not
+            depend on it, to the last bit.
+        resume
+            Go on with a store that is there.
+        progress
+            Called after each chunk.
+
+        Returns
+        -------
+        xarray.Dataset
+            The outputs over the parameters of a grid, or over ``run``; whether a run
+            ``failed``, and its ``message``.
+
+        Raises
+        ------
+        InputError
+            If the store cannot be written, is there and shall not be resumed, or is that of
+            another study.
+        """
+        from bumpstop.study.dataset import labelled
+
+        opened = self.opened(store, resume=resume)
+        execute(self, opened, workers, progress)
+        return labelled(self.definition, self.layout.arrays, opened.arrays())
+
+    def opened(self, store: str | PathLike[str] | None, *, resume: bool) -> Store:
+        """Return where results are kept; see `run`."""
+        if store is None:
+            return MemoryStore(self.layout)
+        return open_zarr_store(Path(store), self.layout, self.definition, resume=resume)
+
+    def _check_parameters(self) -> None:
+        """Raise where there is no such key, or a text is not of its kind.
+
+        Numbers are judged run by run.
+        """
+        if not self.parameters:
+            hint = "name what varies and its values"
+            raise InputError("there are none", key="parameters", hint=hint)
+        for key, parameter in self.parameters.items():
+            first, *others = parameter.written or (1.0,)
+            for written in (first, *(other for other in others if isinstance(other, str))):
+                self._check_value(key, written)
+
+    def _check_value(self, key: str, written: object) -> None:
+        place = f'parameters."{key}"'
+        try:
+            checked_tables(overridden(self.document, {key: written}))
+        except InputError as error:
+            if error.what in _NO_KEY:
+                what = f"the case has no such key: {error.key}"
+                raise InputError(what, key=place, hint=error.hint) from error
+            if isinstance(written, str):
+                value, hint = error.value, error.hint
+                raise InputError(error.what, key=place, value=value, hint=hint) from error
+
+    def _check_outputs(self) -> None:
+        if not self.outputs:
+            hint = "say what to keep of each run"
+            raise InputError("there are none", key="outputs", hint=hint)
+        problem = self.case.problems.get(str(self.variant))
+        for key, output in self.outputs.items():
+            name("outputs", key)
+            if key in _TAKEN or key in self.parameters:
+                raise InputError("this name is taken", key="outputs", value=key)
+            if not isinstance(output, Output):
+                raise InputError("must be an Output", key=f"outputs.{key}", value=output)
+            with keyed(f"outputs.{key}"):
+                if problem is None:
+                    output.of_modes(self.case.bases[str(self.variant)])
+                else:
+                    output.check(problem)
+
+
+_NO_KEY = ("unknown key", "leads nowhere", "cannot be changed by a variant")
+"""What is said of a name that is no key of the case."""
+
+
+def study(
+    case: Case | str | PathLike[str],
+    parameters: Mapping[str, Any],
+    outputs: Mapping[str, Output],
+    *,
+    sampling: str = "grid",
+    count: int | None = None,
+    seed: int = 0,
+    variant: str | None = None,
+    store: str | PathLike[str] | None = None,
+    workers: int | None = None,
+    resume: bool = False,
+) -> xr.Dataset:
+    """Make many runs of a case, and return what is kept of them.
+
+    Parameters
+    ----------
+    case
+        A case from a file, or the path of one.
+    parameters
+        What varies: keys of the case by dotted name, each with a list of values, a `Range` or
+        a `Distribution`.
+    outputs
+        What to keep of each run, by a name of your own.
+    sampling, count, seed
+        See `Sampling`.
+    variant
+        Which variant of the case; needed where it has several.
+    store, workers, resume
+        See `Study.run`.
+
+    Returns
+    -------
+    xarray.Dataset
+        The outputs over the parameters of a grid, or over ``run``.
+
+    Raises
+    ------
+    InputError
+        If something is not as it must be; see `Study`.
+
+    Examples
+    --------
+    >>> import bumpstop as bs
+    >>> found = bs.study(
+    ...     "cases/sdnl32/case.toml",
+    ...     {"stops.spring.gap": ["0 mm", "1 mm"], "basis.modes": [4, 10]},
+    ...     {"impacts": bs.Output(quantity="impacts")},
+    ...     variant="stiff",
+    ... )
+    >>> dict(found.sizes)
+    {'stops.spring.gap': 2, 'basis.modes': 2}
+    """
+    loaded = case if isinstance(case, Case) else load_case(case)
+    made = Study(
+        loaded, parameters, outputs, sampling=Sampling(sampling, count, seed), variant=variant
+    )
+    return made.run(store, workers=workers, resume=resume)
+
+
+def open_study(store: str | PathLike[str]) -> xr.Dataset:
+    """Return the results in a store, also of a study that has not ended.
+
+    Parameters
+    ----------
+    store
+        Folder of the zarr store.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `Study.run` gives it; what has not been run yet is NaN.
+
+    Raises
+    ------
+    InputError
+        If there is no store of a study.
+    """
+    from bumpstop.study.dataset import labelled
+
+    return labelled(*read_store(Path(store)))
+
+
+def _parameter(key: str, value: object) -> Parameter:
+    with keyed(f'parameters."{key}"'):
+        return as_parameter(value)
+
+
+def _variant(case: Case, variant: str | None) -> str:
+    known = list(case.documents)
+    if variant is None:
+        if len(known) > 1:
+            hint = f"the case has {', '.join(known)}"
+            raise InputError("is missing", key="variant", hint=hint)
+        return known[0]
+    if variant not in known:
+        raise InputError(
+            "unknown variant", key="variant", value=variant, hint=did_you_mean(variant, known)
+        )
+    return variant
+
+
+def _digests(part: Any, folder: Path) -> Iterator[tuple[str, str]]:
+    """Yield the files that a document names, and what tells their content."""
+    if isinstance(part, dict):
+        for each in part.values():
+            yield from _digests(each, folder)
+    elif isinstance(part, list):
+        for each in part:
+            yield from _digests(each, folder)
+    elif isinstance(part, str) and 0 < len(part) < 256 and "\0" not in part:
+        path = folder / part
+        if path.is_file():
+            yield part, hashlib.sha256(path.read_bytes()).hexdigest()

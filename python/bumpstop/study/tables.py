@@ -1,0 +1,170 @@
+"""What a study file holds."""
+
+import re
+from typing import Annotated, Any
+
+from bumpstop.arguments import did_you_mean
+from bumpstop.errors import InputError
+from bumpstop.io.case.fields.counts import Count, CountFromZero
+from bumpstop.io.case.fields.plain import Plain
+from bumpstop.io.case.fields.quantities import Times
+from bumpstop.io.case.fields.words import Name, Node, OneDof, Text, choice
+from bumpstop.io.case.tables.table import Field, Table
+from bumpstop.study.outputs import OUTPUT_QUANTITIES, OUTPUT_STATISTICS
+from bumpstop.study.parameters import Distribution, Parameter, Range, Values
+from bumpstop.study.sampling import SAMPLINGS
+
+__all__ = ["StudyFile"]
+
+_KINDS = ("values", "from", "distribution")
+"""Keys of which a parameter has one."""
+
+
+def _read_parameter(value: object) -> Parameter:
+    """Return how a parameter varies."""
+    if isinstance(value, list):
+        return Values(value)
+    if not isinstance(value, dict):
+        hint = "such as { from = 1, to = 2, count = 5 }"
+        raise InputError("must be a list of values or a table", value=value, hint=hint)
+    kinds = [kind for kind in _KINDS if kind in value]
+    if len(kinds) != 1:
+        dotted = "a dotted name goes in quotes" if _holds_tables(value) else None
+        what = "needs either values, from and to, or distribution"
+        raise InputError(what, value=value, hint=dotted)
+    if kinds == ["distribution"]:
+        return _distribution(value)
+    known = ("values",) if kinds == ["values"] else ("from", "to", "count", "spacing")
+    for key in value:
+        if key not in known:
+            raise InputError("unknown key", key=key, hint=did_you_mean(key, known))
+    if kinds == ["values"]:
+        return Values(value["values"])
+    if "to" not in value:
+        raise InputError("is missing", key="to", hint="a range ends somewhere")
+    return Range(value["from"], value["to"], value.get("count"), value.get("spacing", "linear"))
+
+
+def _distribution(value: dict[str, Any]) -> Distribution:
+    given = dict(value)
+    name = given.pop("distribution")
+    if not all(re.fullmatch(r"[A-Za-z]\w*", key) for key in given):
+        raise InputError("has a parameter that no distribution has", value=value)
+    return Distribution(name, **given)
+
+
+def _holds_tables(value: dict[str, Any]) -> bool:
+    return any(isinstance(each, dict) for each in value.values())
+
+
+def _read_key(value: object) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise InputError("must be a key of the case", value=value)
+    return value
+
+
+_NUMBER = {"type": ["number", "string"]}
+_PARAMETER_SCHEMA = {
+    "anyOf": [
+        {"type": "array", "items": {"type": ["number", "string", "boolean"]}, "minItems": 1},
+        {
+            "type": "object",
+            "properties": {"values": {"type": "array", "minItems": 1}},
+            "required": ["values"],
+            "additionalProperties": False,
+        },
+        {
+            "type": "object",
+            "properties": {
+                "from": _NUMBER,
+                "to": _NUMBER,
+                "count": {"type": "integer", "minimum": 1},
+                "spacing": {"enum": ["linear", "log"]},
+            },
+            "required": ["from", "to"],
+            "additionalProperties": False,
+        },
+        {
+            "type": "object",
+            "properties": {"distribution": {"type": "string"}},
+            "required": ["distribution"],
+            "additionalProperties": _NUMBER,
+        },
+    ]
+}
+
+_Key = Annotated[str, Plain(_read_key, {"type": "string"})]
+_Parameter = Annotated[Any, Plain(_read_parameter, _PARAMETER_SCHEMA)]
+
+
+class SamplingTable(Table):
+    """How values of several parameters are put together to runs."""
+
+    method: Annotated[str, choice(*SAMPLINGS)] = Field(
+        default="grid",
+        description="Each value with each of the others (grid), the n-th values together "
+        "(list), or samples that are drawn",
+    )
+    count: Count | None = Field(
+        default=None, description="How many samples are drawn; a power of two for sobol"
+    )
+    seed: CountFromZero = Field(
+        default=0, description="Another seed draws other samples, the same one the same"
+    )
+
+
+class StudyOutputTable(Table):
+    """What is kept of each run: a number, or numbers at given instants."""
+
+    quantity: Annotated[str, choice(*OUTPUT_QUANTITIES)] = Field(description="What to keep")
+    node: Node | None = Field(default=None, description="Of which node or point, for a motion")
+    dof: OneDof | None = Field(default=None, description="Along or about which axis, for a motion")
+    mode: Count | None = Field(default=None, description="Of which mode, counted from 1")
+    stop: Name | None = Field(default=None, description="Of which stop")
+    gauge: Name | None = Field(default=None, description="Of which gauge")
+    term: Name | None = Field(default=None, description="Which term of the energy ledger")
+    impact: Count | None = Field(default=None, description="Of which impact, counted from 1")
+    statistic: Annotated[str, choice(*OUTPUT_STATISTICS)] | None = Field(
+        default=None, description="Of a quantity of time over the run, or of all impacts of a stop"
+    )
+    times: Times | None = Field(
+        default=None, description="Instead of a statistic: the instants, in s, to keep it at"
+    )
+
+
+class ExecutionTable(Table):
+    """How the runs are made; nothing of it changes the results."""
+
+    workers: Count | None = Field(
+        default=None, description="How many processes; as many as there are cores where left out"
+    )
+    chunk: Count | None = Field(
+        default=None,
+        description="Runs that are made and written together: the most that a killed process "
+        "loses; a 64th of all where left out, and 1024 at most",
+    )
+    store: Text | None = Field(
+        default=None,
+        description="Folder of the results, a zarr store beside the study file; named after it "
+        "where left out",
+    )
+
+
+class StudyFile(Table):
+    """A study: a case, what varies in it, and what is kept of each run."""
+
+    title: Text = Field(default="", description="What the study is, in one line")
+    case: Text = Field(description="The case file, beside this one")
+    variant: Name | None = Field(
+        default=None, description="Which variant of the case; needed where it has several"
+    )
+    parameters: dict[_Key, _Parameter] = Field(
+        description='What varies: keys of the case by dotted name in quotes, "stops.guide.gap"'
+    )
+    sampling: SamplingTable | None = Field(
+        default=None, description="How values are put together; a grid where left out"
+    )
+    outputs: dict[Name, StudyOutputTable] = Field(
+        description="What is kept of each run, by a name of your own"
+    )
+    execution: ExecutionTable | None = Field(default=None, description="How the runs are made")

@@ -1,0 +1,182 @@
+"""``bumpstop sweep``: what it prints, writes and returns, and that it survives being killed."""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+from bumpstop.cli import main
+from tests.study.bouncing import CASE, STUDY, written
+
+
+def content(store: Path) -> dict[str, bytes]:
+    """Return the content of every file of a store."""
+    found = (path for path in store.rglob("*") if path.is_file())
+    return {str(path.relative_to(store)): path.read_bytes() for path in found}
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    """Return the one line that says why a sweep is refused."""
+    assert main(["sweep", *words]) == 2
+    captured = capsys.readouterr()
+    (line,) = captured.err.splitlines()
+    assert not captured.out
+    return line
+
+
+def test_table_and_store(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study = written(tmp_path)
+    assert main(["sweep", str(study), "--workers", "1"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "A ball thrown at a spring"
+    assert lines[1].startswith("10 runs: ")
+    assert lines[3].split()[:5] == ["output", "unit", "smallest", "mean", "largest"]
+    (force,) = [line.split() for line in lines if line.split()[:1] == ["force"]]
+    # 3 m/s sqrt(k m) with m = 2 kg and k from 50 to 800 N/m
+    mean = 3.0 * np.sqrt(2.0 * np.geomspace(50.0, 800.0, 5)).mean()
+    assert force[1:5] == ["N", "30", f"{mean:.6g}", "120"]
+    assert force[5:8] == ["stops.spring.stiffness", "=", "800,"]
+    assert lines[-1] == f"written to {tmp_path / 'study.zarr'}"
+    assert bs.open_study(tmp_path / "study.zarr").sizes["stops.spring.gap"] == 2
+
+
+def test_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study = STUDY.replace('[0.25, "50 cm"]', "[0.25, 0.5]").replace('from = "50 N/m"', "from = -50")
+    study = study.replace('"log"', '"linear"')
+    path = written(tmp_path, study)
+    words = ["sweep", str(path), "--store", str(tmp_path / "other"), "--workers", "1", "--json"]
+    assert main(words) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert (record["runs"], record["made"], record["failed"]) == (10, 10, 2)
+    assert record["store"] == str(tmp_path / "other")
+    assert record["failures"][0]["parameters"]["stops.spring.stiffness"] == -50.0
+    assert "must be positive" in record["failures"][0]["message"]
+    assert record["outputs"]["force"]["largest"] == pytest.approx(120.0)
+    assert record["outputs"]["force"]["largest_with"]["stops.spring.stiffness"] == 800.0
+    assert main([*words, "--resume"]) == 0
+    assert json.loads(capsys.readouterr().out)["made"] == 0
+
+
+def test_failures_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    all_wrong = STUDY.replace('"50 N/m"', "-2").replace("800", "-1").replace('"log"', '"linear"')
+    assert main(["sweep", str(written(tmp_path, all_wrong)), "--workers", "1"]) == 3
+    output = capsys.readouterr().out
+    assert "10 failed, such as" in output
+    assert "stops.spring.stiffness: must be positive (got -2.0)" in output
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("stops.spring.stiffness", "stops.spring.stifness", "did you mean 'stiffness'?"),
+        ('"stops.spring.gap"', "stops.spring.gap", "a dotted name goes in quotes"),
+        ('[0.25, "50 cm"]', "[]", 'parameters."stops.spring.gap".values: must be a list'),
+        ('[0.25, "50 cm"]', '["50 N"]', "wrong unit: 'N' is a force, expected a length"),
+        ("count = 5", "count = 1000000000000", "at most 20,000,000"),
+        ("count = 5", "cuont = 5", "did you mean 'count'?"),
+        ('[0.25, "50 cm"]', '{ distribution = "normel", mean = 1 }', "did you mean 'normal'?"),
+        ("impact = 1", "impct = 1", "did you mean 'impact'?"),
+        ("largest_force", "larges_force", "did you mean 'largest_force'?"),
+        ('node = "P"', 'node = "Q"', "outputs.place.node: unknown node"),
+        ("[execution]", '[sampling]\nmethod = "sobl"\n[execution]', "did you mean 'sobol'?"),
+        (
+            "[execution]",
+            '[sampling]\nmethod = "sobol"\ncount = 100\n[execution]',
+            "sampling.count: must be a power of two",
+        ),
+        ("case.toml", "cse.toml", "cse.toml: no such file"),
+        ("chunk = 3", "workers = 0", "execution.workers: must be 1 or more"),
+        ("case = ", "cases = ", "did you mean 'case'?"),
+    ],
+)
+def test_wrong_studies(
+    old: str, new: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path, STUDY.replace(old, new))
+    assert told in refused(capsys, str(path))
+    assert not (tmp_path / "study.zarr").exists()
+
+
+def test_places_that_cannot_be_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study = str(written(tmp_path))
+    assert "cannot be written" in refused(capsys, study, "--store", "/proc/study.zarr")
+    (tmp_path / "file").touch()
+    inside = refused(capsys, study, "--store", str(tmp_path / "file" / "s.zarr"))
+    assert "cannot be written" in inside
+    assert "is not the store" in refused(capsys, study, "--resume", "--store", str(tmp_path))
+    assert main(["sweep", study, "--workers", "1"]) == 0
+    capsys.readouterr()
+    assert "is there already; go on with it by --resume" in refused(capsys, study)
+
+
+def test_a_full_disk_loses_nothing(tmp_path: Path) -> None:
+    study = written(
+        tmp_path, STUDY.replace("0.05, 1.9", ", ".join(f"{t / 500:g}" for t in range(1000)))
+    )
+    store = tmp_path / "study.zarr"
+    words = [sys.executable, "-m", "bumpstop", "sweep", str(study), "--workers", "1"]
+
+    def narrow() -> None:
+        # A write beyond this fails as on a full disk, instead of ending the process.
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (15_000, 15_000))
+
+    failed = subprocess.run(words, preexec_fn=narrow, capture_output=True, text=True, check=False)
+    assert failed.returncode == 2
+    (line,) = failed.stderr.splitlines()
+    assert "study.zarr: store: cannot be written: File too large" in line
+    assert "go on with --resume" in line
+    assert subprocess.run([*words, "--resume"], capture_output=True, check=False).returncode == 0
+    whole = tmp_path / "whole.zarr"
+    assert main(["sweep", str(study), "--workers", "1", "--store", str(whole)]) == 0
+    assert content(store) == content(whole)
+
+
+def test_killed_at_any_instant_and_resumed(tmp_path: Path) -> None:
+    slow = CASE.replace("duration = 2.0", "duration = 2.0\nsample = 2e-6")
+    many = STUDY.replace("count = 5", "count = 10")
+    study = written(tmp_path, many, slow)
+    whole, store = tmp_path / "whole.zarr", tmp_path / "study.zarr"
+    assert main(["sweep", str(study), "--store", str(whole), "--workers", "1"]) == 0
+    words = [sys.executable, "-m", "bumpstop", "sweep", str(study), "--workers", "2"]
+    random = np.random.default_rng(5)
+    kills = 0
+    for _ in range(3):
+        resume = ["--resume"] if store.exists() else []
+        with subprocess.Popen([*words, *resume], stdout=subprocess.DEVNULL) as process:
+            deadline = time.monotonic() + 60
+            while not store.exists() and time.monotonic() < deadline:
+                time.sleep(0.01)
+            time.sleep(random.uniform(0.0, 1.0))
+            process.send_signal(signal.SIGKILL)
+            kills += process.wait() == -signal.SIGKILL
+    assert kills
+    done = subprocess.run([*words, "--resume"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert content(store) == content(whole)
+
+
+def test_interrupted(tmp_path: Path) -> None:
+    slow = CASE.replace("duration = 2.0", "duration = 2.0\nsample = 1e-6")
+    study = written(tmp_path, STUDY.replace("count = 5", "count = 5000"), slow)
+    words = [sys.executable, "-m", "bumpstop", "sweep", str(study), "--workers", "2"]
+    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
+        first = tmp_path / "study.zarr" / "status" / "c" / "0"
+        deadline = time.monotonic() + 60
+        while not first.exists() and time.monotonic() < deadline:
+            time.sleep(0.02)
+        os.kill(process.pid, signal.SIGINT)
+        assert process.stderr is not None
+        lines = process.stderr.read().splitlines()
+        assert process.wait() == 130
+    assert lines[-1] == "interrupted"
+    assert "of 10000 runs are kept; go on by --resume" in lines[0]
+    assert len(lines) == 2
