@@ -1,0 +1,83 @@
+"""Kill a study a hundred times at random instants, and compare its store with an unbroken one.
+
+``python benchmarks/killed_studies.py [KILLS]``; the exit status is 1 where a byte differs.
+"""
+
+from __future__ import annotations
+
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+STUDY = """
+case = {case!r}
+variant = "stiff"
+[parameters]
+"stops.spring.stiffness" = {{ from = 1e4, to = 1e7, count = 60, spacing = "log" }}
+"stops.spring.gap" = {{ from = -1e-3, to = 1e-3, count = 40 }}
+[outputs.force]
+quantity = "largest_force"
+stop = "spring"
+[outputs.tip]
+quantity = "displacement"
+node = "B"
+dof = "dy"
+times = [0.001, 0.002, 0.01]
+[execution]
+chunk = 5
+"""
+CASE = Path(__file__).parents[1] / "cases" / "sdnl32" / "case.toml"
+
+
+def content(store: Path) -> dict[str, bytes]:
+    """Return the content of every file of a store."""
+    found = (path for path in store.rglob("*") if path.is_file())
+    return {str(path.relative_to(store)): path.read_bytes() for path in found}
+
+
+def sweep(study: Path, store: Path) -> list[str]:
+    """Return the command that makes or resumes a study."""
+    command = [sys.executable, "-m", "bumpstop", "sweep", str(study), "--store", str(store)]
+    return [*command, "--workers", "2", *(["--resume"] if store.exists() else [])]
+
+
+def killed_once(study: Path, store: Path, chance: random.Random) -> bool:
+    """Start a study, kill it some time later, and tell whether it was still running."""
+    with subprocess.Popen(sweep(study, store), stdout=subprocess.DEVNULL) as process:
+        deadline = time.monotonic() + chance.uniform(0.0, 6.0)
+        while process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        return process.wait() == -signal.SIGKILL
+
+
+def main() -> int:
+    """Kill, resume, compare; return the exit status."""
+    wanted = int(sys.argv[1]) if len(sys.argv) > 1 else 100
+    chance = random.Random(1)
+    kills = studies = 0
+    with TemporaryDirectory() as folder:
+        study = Path(folder) / "study.toml"
+        study.write_text(STUDY.format(case=str(CASE)), encoding="utf-8")
+        whole = Path(folder) / "whole.zarr"
+        subprocess.run(sweep(study, whole), check=True)
+        expected = content(whole)
+        while kills < wanted:
+            studies += 1
+            store = Path(folder) / f"{studies}.zarr"
+            while kills < wanted and killed_once(study, store, chance):
+                kills += 1
+            subprocess.run(sweep(study, store), check=True, stdout=subprocess.DEVNULL)
+            if content(store) != expected:
+                print(f"study {studies} differs after {kills} kills")
+                return 1
+    print(f"{kills} kills in {studies} studies: every store has the bytes of the unbroken one")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
