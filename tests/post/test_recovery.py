@@ -305,6 +305,39 @@ def test_supports_that_shake_are_in_equilibrium() -> None:
     assert np.abs(lacking[free]).max() < 1e-9 * np.abs(lacking).max()
 
 
+def test_joined_parts_have_the_forces_of_the_whole() -> None:
+    """Two halves of a cantilever, the second turned end for end, against the whole."""
+    half = bs.Structure(
+        nodes={"A": (0, 0, 0), "B": (1, 0, 0)},
+        beams=[bs.Beam("AB", nodes=("A", "B"), elements=3, material=STEEL, section=BAR)],
+    )
+    ends = ["A", "B"]
+    reduced = bs.craig_bampton(bs.Component(half, interface=ends), modes=4)
+    turned = bs.Rotation(axis=(0, 0, 1), angle=math.pi)
+    parts = {"root": bs.Placed(reduced), "tip": bs.Placed(reduced, at=(2, 0, 0), rotation=turned)}
+    joined = bs.Assembly(
+        parts=parts,
+        joints=[("root.B", "tip.B")],
+        supports=[bs.Support(nodes="root.A", fixed=DOFS)],
+    )
+    basis = bs.ModalBasis.from_structure(joined, modes=2, damping=0.8)
+    load = bs.NodalForce("end", node="tip.A", force=(7.0, -3.0, 5.0), moment=(0.4, 0.9, -0.6))
+    run = bs.simulate(bs.Problem(basis, loads=[load], duration=20.0)).at([20.0])
+    found = bs.recovery(run)
+    root = found.section_forces("root.AB", 0.25)
+    assert root["Mz"].values[0] == pytest.approx(-0.6 - 3.0 * 1.75, rel=1e-7)
+    assert root["N"].values[0] == pytest.approx(7.0, rel=1e-7)
+    # Along the turned beam the part beyond a section is the one towards the root.
+    tip = found.section_forces("tip.AB", 0.25)
+    assert tip["N"].values[0] == pytest.approx(7.0, rel=1e-7)
+    assert abs(tip["Mz"].values[0]) == pytest.approx(0.6 + 3.0 * 0.25, rel=1e-7)
+    stress = found.stress("root.AB", 0.25, (0.01, 0.0))
+    expected = 7.0 / BAR.area + 0.01 * (0.6 + 3.0 * 1.75) / BAR.inertia_z
+    assert stress.values[0] == pytest.approx(expected, rel=1e-7)
+    with pytest.raises(bs.InputError, match="joined parts"):
+        found.reactions("root.A")
+
+
 def test_needs_a_structure() -> None:
     basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
     run = bs.simulate(bs.Problem(basis, duration=1.0))

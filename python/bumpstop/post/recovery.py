@@ -208,6 +208,7 @@ class Recovery:
         """
         import xarray as xr
 
+        self._refuse_parts()
         dofs = {own: number for number, own in enumerate(self.forces.model.dofs)}
         rows = [dofs.get((node, dof)) for dof in DOFS]
         known = [(dof, row) for dof, row in zip(DOFS, rows, strict=True) if row is not None]
@@ -234,6 +235,7 @@ class Recovery:
         """
         import xarray as xr
 
+        self._refuse_parts()
         parts = self._in_pieces(self._resultants)
         attributes = {"units": "N", "long_name": "sum of forces, and moment about the origin"}
         return xr.Dataset(
@@ -294,6 +296,14 @@ class Recovery:
         for each, shapes in self._corrections:
             values = values + along(form.of(shapes), each.sizes(times))
         return values
+
+    def _refuse_parts(self) -> None:
+        """Raise for substructures: forces that their dofs lack are those of joints as well."""
+        from bumpstop.modal.substructure.assembly import Assembly
+
+        if isinstance(self.forces.model, Assembly):
+            what = "reactions and resultants of joined parts are not known"
+            raise InputError(what, key="basis", hint="section forces and stresses are")
 
     @property
     def _sections(self) -> SectionModel:

@@ -214,6 +214,28 @@ class Assembly:
         part, beam = self._split(gauge.beam, "beam")
         return self._form(part, self._parts[part].strain_form(replace(gauge, beam=beam)))
 
+    def section_forms(self, beam: str, at: float) -> tuple[LinearForm, ...]:
+        """Return the forces in a section of a beam, ``"left.AB"``, as `Structure` does.
+
+        Raises
+        ------
+        InputError
+            If the part or the beam is unknown, or the section is not on it.
+        """
+        part, inner = self._split(beam, "beam")
+        return tuple(self._form(part, f) for f in self._parts[part].section_forms(inner, at))
+
+    def stress_form(self, gauge: Gauge) -> LinearForm:
+        """Return the axial stress of a fibre as a form of all dofs; see `strain_form`.
+
+        Raises
+        ------
+        InputError
+            As `strain_form` does.
+        """
+        part, beam = self._split(gauge.beam, "beam")
+        return self._form(part, self._parts[part].stress_form(replace(gauge, beam=beam)))
+
     def beam_nodes(self, beam: str) -> tuple[str, ...]:
         """Return the nodes of a beam, ``"left.AB"``, from end to end.
 

@@ -17,7 +17,7 @@ from bumpstop.structure.dofs import DOFS, Dof
 from bumpstop.structure.drawn import DrawnModel, Line
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
-from bumpstop.structure.model import BeamModel, StrainModel
+from bumpstop.structure.model import BeamModel, SectionModel, StrainModel
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
 __all__ = ["Part"]
@@ -148,11 +148,32 @@ class Part:
 
     def strain_form(self, gauge: Gauge) -> LinearForm:
         """Return the strain of a gauge, its beam without the part's name, as a form of the rows."""
-        field = np.zeros(len(self._model.dofs))
         with self._named():
             if not isinstance(self._model, StrainModel):
                 raise InputError("the component has no beams", key="beam", value=gauge.beam)
             form = self._model.strain_form(gauge)
+        return self._of_rows(form)
+
+    def section_forms(self, beam: str, at: float) -> tuple[LinearForm, ...]:
+        """Return the forces in a section, along the beam's own axes, as forms of the rows."""
+        with self._named():
+            forms = self._sections(beam).section_forms(beam, at)
+        return tuple(self._of_rows(form) for form in forms)
+
+    def stress_form(self, gauge: Gauge) -> LinearForm:
+        """Return the axial stress of a fibre as a form of the rows; see `strain_form`."""
+        with self._named():
+            form = self._sections(gauge.beam).stress_form(gauge)
+        return self._of_rows(form)
+
+    def _sections(self, beam: str) -> SectionModel:
+        if not isinstance(self._model, SectionModel):
+            raise InputError("the component has no beams", key="beam", value=beam)
+        return self._model
+
+    def _of_rows(self, form: LinearForm) -> LinearForm:
+        """Return a form of the component's dofs as one of the rows."""
+        field = np.zeros(len(self._model.dofs))
         np.add.at(field, form.dofs, form.weights)
         return self._form(field)
 
