@@ -82,3 +82,19 @@ def test_mistakes_are_one_line() -> None:
         bs.continued(run, duration=1.0, at=0.6)
     with pytest.raises(bs.InputError, match="duration: must be positive"):
         bs.continued(run, duration=0.0)
+
+
+def test_laws_that_remember_are_told() -> None:
+    damper = bs.ZenerDamper(
+        "damper",
+        node="P",
+        direction=(1, 0, 0),
+        series_stiffness=300.0,
+        parallel_stiffness=150.0,
+        branch_stiffness=500.0,
+        damping=20.0,
+        exponent=1.0,
+    )
+    run = bs.simulate(bs.Problem(BASIS, laws=[damper], duration=0.1))
+    with pytest.raises(bs.InputError, match=r"laws\.damper: remembers more than the motion tells"):
+        bs.continued(run, duration=1.0)

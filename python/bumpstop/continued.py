@@ -52,7 +52,8 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
     ------
     InputError
         If a contact rubs at that instant: where its spring is anchored cannot be given to a new
-        run; or if supports move and results are told from the ground.
+        run; if a law is there that remembers more than the motion tells, such as a `ZenerDamper`;
+        or if supports move and results are told from the ground.
 
     Examples
     --------
@@ -85,6 +86,12 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
 
 def _refuse_memory(response: Response, law: Law, instant: float) -> None:
     """Raise where a law remembers what the state of the modes does not tell."""
+    from bumpstop.laws import HertzStop, RigidStop, SpringLaw, Stop
+
+    # By exact kind: what is made of these may remember more.
+    if type(law) not in (HertzStop, RigidStop, SpringLaw, Stop):
+        what = "remembers more than the motion tells, and a new run would forget it"
+        raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
     if getattr(law, "friction", None) is None:
         return
     state = str(response.sample("state", law.name, times=[instant])[0])
