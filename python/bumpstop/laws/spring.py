@@ -152,6 +152,11 @@ class SpringLaw(Connection):
         breaks, stiffness = np.array(self.breaks, np.float64), np.array(self.stiffness)
         return _core.Spring(self.row(basis), breaks, stiffness, self.preload, self.damping)
 
+    def static_force(self, place: float) -> tuple[float, float]:
+        """Return the force in N on the structure, ``place`` m along, at rest, and its slope."""
+        segment = int(np.searchsorted(self.breaks, place, side="right"))
+        return -float(self.force([place])[0]), -self.stiffness[segment]
+
     def force(self, deformation: FloatArray | Sequence[float]) -> FloatArray:
         """Return the force in N with which it resists, for deformations in m at rest."""
         x = np.asarray(deformation, dtype=np.float64)
