@@ -3,13 +3,13 @@
 use super::record::{AdaptiveRecord, Reading, Step};
 use crate::dynamics::Moment;
 use crate::impacts::Impact;
-use crate::law::{Law, Local};
+use crate::law::{Law, Local, project};
 use crate::method::instant::force_rate;
 use crate::method::piecewise_linear::quadrature::panel;
 use crate::problem::Problem;
 
 /// Parts of a step at whose ends signs are looked at.
-const PARTS: usize = 8;
+const PARTS: usize = 4;
 
 /// Reads the contact of one law.
 pub(super) struct ContactReader<'a, L> {
@@ -54,40 +54,41 @@ impl<'a, L: Law> ContactReader<'a, L> {
     /// Takes note of one step in contact.
     fn follow(&mut self, mut impact: Impact, number: usize, step: Step) -> Impact {
         let part = (step.end - step.start) / PARTS as f64;
-        let at = |i: usize| {
-            if i == PARTS {
-                step.end
-            } else {
-                step.start + i as f64 * part
+        let (mut from, mut last_turn) = (step.start, step.start);
+        impact.see_force(from, self.look(number, from)[0]);
+        for i in 1..=PARTS {
+            let end = step.start + i as f64 * part;
+            let to = if i == PARTS { step.end } else { end };
+            impact.see_force(to, self.look(number, to)[0]);
+            if let Some(peak) = self.sign_change(number, [from, to], Self::force_rate) {
+                impact.see_force(peak, self.look(number, peak)[0]);
             }
-        };
-        for i in 0..PARTS {
-            let (from, to) = (at(i), at(i + 1));
-            for time in [from, to] {
-                impact.see_force(time, self.force(number, time));
+            // Work to and fro counts apart.
+            if let Some(turn) = self.sign_change(number, [from, to], Self::speed) {
+                self.add_stretch(&mut impact, number, last_turn, turn);
+                last_turn = turn;
             }
-            if let Some(time) = self.sign_change(number, from, to, Self::force_rate) {
-                impact.see_force(time, self.force(number, time));
-            }
-            let turn = self.sign_change(number, from, to, Self::speed);
-            let [impulse, work] = self.integrals(number, from, turn.unwrap_or(to));
-            impact.impulse += impulse;
-            impact.add_work(work);
-            if let Some(turn) = turn {
-                let [impulse, work] = self.integrals(number, turn, to);
-                impact.impulse += impulse;
-                impact.add_work(work);
-            }
+            from = to;
         }
+        self.add_stretch(&mut impact, number, last_turn, step.end);
         impact
+    }
+
+    /// Adds impulse and work between two times.
+    fn add_stretch(&mut self, impact: &mut Impact, number: usize, from: f64, to: f64) {
+        let [impulse, work] = panel(from, to - from, |time| {
+            let [force, speed] = self.look(number, time);
+            [force, force * speed]
+        });
+        impact.impulse += impulse;
+        impact.add_work(work);
     }
 
     /// Where a function changes its sign between two times, by halving.
     fn sign_change(
         &mut self,
         number: usize,
-        mut from: f64,
-        mut to: f64,
+        [mut from, mut to]: [f64; 2],
         function: fn(&mut Self, usize, f64) -> f64,
     ) -> Option<f64> {
         let start = function(self, number, from);
@@ -107,12 +108,16 @@ impl<'a, L: Law> ContactReader<'a, L> {
         }
     }
 
-    /// Impulse, and work done on the structure.
-    fn integrals(&mut self, number: usize, from: f64, to: f64) -> [f64; 2] {
-        panel(from, to - from, |time| {
-            let (force, speed) = (self.force(number, time), self.speed(number, time));
-            [force, force * speed]
-        })
+    /// Force and speed of the distance at a time.
+    fn look(&mut self, number: usize, time: f64) -> [f64; 2] {
+        let [position, velocity] = self.local(number, time);
+        let law = &self.problem.laws[self.law];
+        let force = law.force(self.reading.states[self.law], &position, &velocity)[0];
+        [force, law.distance(&position, &velocity).1]
+    }
+
+    fn speed(&mut self, number: usize, time: f64) -> f64 {
+        self.look(number, time)[1]
     }
 
     /// The local motion at a time.
@@ -122,30 +127,18 @@ impl<'a, L: Law> ContactReader<'a, L> {
         self.problem.local(self.law, time, q, v)
     }
 
-    fn force(&mut self, number: usize, time: f64) -> f64 {
-        let [position, velocity] = self.local(number, time);
-        let state = self.reading.states[self.law];
-        self.problem.laws[self.law].force(state, &position, &velocity)[0]
-    }
-
-    fn speed(&mut self, number: usize, time: f64) -> f64 {
-        let [position, velocity] = self.local(number, time);
-        self.problem.laws[self.law].distance(&position, &velocity).1
-    }
-
     fn force_rate(&mut self, number: usize, time: f64) -> f64 {
         let [position, velocity] = self.local(number, time);
         let Reading { numbers, states } = &self.reading;
-        let [q, v] = self.record.layout.motion(numbers);
+        let [displacement, rate] = self.record.layout.motion(numbers);
         let moment = Moment {
             time,
-            displacement: q,
-            velocity: v,
+            displacement,
+            velocity: rate,
             states,
         };
-        let modal = moment.acceleration(self.problem);
         let law = &self.problem.laws[self.law];
-        let mut acceleration = crate::law::project(law, &modal);
+        let mut acceleration = project(law, &moment.acceleration(self.problem));
         if self.problem.forcing.varies() {
             acceleration[0] -= self.problem.forcing.motion(self.law, time)[2];
         }
