@@ -102,6 +102,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.spring import Spring
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
+    from bumpstop.study.continuation import continuation
     from bumpstop.study.convergence import Convergence, converge
     from bumpstop.study.load import load_study
     from bumpstop.study.outputs import Output
@@ -205,6 +206,7 @@ __all__ = [
     "complex_modes",
     "contact_impacts",
     "contact_statistics",
+    "continuation",
     "continued",
     "converge",
     "craig_bampton",
@@ -332,6 +334,7 @@ _HOME = {
     "complex_modes": "modal.oscillation",
     "contact_impacts": "post.contacts",
     "contact_statistics": "post.statistics",
+    "continuation": "study.continuation",
     "continued": "continued",
     "converge": "study.convergence",
     "craig_bampton": "modal.substructure.craig_bampton",

@@ -26,10 +26,12 @@ from bumpstop.study.parameters import Level
 if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
     from bumpstop.io.case.tables.case_file import CaseFile
+    from bumpstop.io.case.tables.run import RunTable
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
+    from bumpstop.response import Response
 
-__all__ = ["FAILED", "GOOD", "Evaluator", "Kept", "Recipe"]
+__all__ = ["FAILED", "GOOD", "Evaluator", "Kept", "Recipe", "simulated"]
 
 GOOD = 1
 FAILED = 2
@@ -150,9 +152,14 @@ class Evaluator:
             outputs = self._recipe.outputs
             if problem is None or tables.run is None:
                 return {name: output.of_modes(basis) for name, output in outputs.items()}
-            method, options = method_of(tables.run)
-            response = simulate(problem, method, **usable_options(method, options))
+            response = simulated(problem, tables.run)
             return {name: output.value(response) for name, output in outputs.items()}
+
+
+def simulated(problem: Problem, run: RunTable) -> Response:
+    """Return the response of a problem, integrated as its case says."""
+    method, options = method_of(run)
+    return simulate(problem, method, **usable_options(method, options))
 
 
 def _told(error: Exception) -> str:
