@@ -17,9 +17,8 @@ from bumpstop.study.layout import unpacked_message
 from bumpstop.study.load import read_study
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from bumpstop.study.parameters import Level
+    from bumpstop.study.store import Reader
     from bumpstop.study.study import Study
 
 __all__ = ["sweep_command"]
@@ -44,10 +43,10 @@ def sweep_command(
         with runs_display(loaded.title) as tell:
             summary = execute(study, opened, workers or loaded.workers, tell)
     except KeyboardInterrupt:
-        there = np.count_nonzero(opened.status())
+        there = np.count_nonzero(opened.read("status"))
         print_error(f"interrupted: {there} of {study.runs.count} runs are kept; go on by --resume")
         raise
-    found = _Found(study, opened.arrays())
+    found = _Found(study, opened.read)
     if json:
         print_json(_record(loaded.title, summary, folder, found))
     else:
@@ -68,9 +67,9 @@ class _Extremes(NamedTuple):
 class _Found:
     """The results, for those who want a word of them."""
 
-    def __init__(self, study: Study, arrays: Mapping[str, NDArray[Any]]) -> None:
+    def __init__(self, study: Study, read: Reader) -> None:
         self._study = study
-        self._arrays = arrays
+        self._read = read
 
     @property
     def units(self) -> dict[str, str]:
@@ -80,13 +79,13 @@ class _Found:
     @property
     def failed(self) -> list[int]:
         """The first runs that failed."""
-        runs = np.flatnonzero(self._arrays["status"] == FAILED)[:TOLD_FAILURES]
+        runs = np.flatnonzero(self._read("status") == FAILED)[:TOLD_FAILURES]
         numbers: list[int] = runs.tolist()
         return numbers
 
     def message(self, run: int) -> str:
         """Return why a run failed."""
-        return unpacked_message(self._arrays["message"][run])
+        return unpacked_message(self._read("message", slice(run, run + 1))[0])
 
     def parameters(self, run: int) -> dict[str, Level]:
         """Return the values that a run had."""
@@ -95,7 +94,7 @@ class _Found:
 
     def extremes(self, name: str) -> _Extremes | None:
         """Return the smallest and largest value of an output; None where it has none."""
-        values = self._arrays[name].reshape(self._study.runs.count, -1)
+        values = self._read(name).reshape(self._study.runs.count, -1)
         if np.isnan(values).all():
             return None
         smallest, largest = int(np.nanargmin(values)), int(np.nanargmax(values))

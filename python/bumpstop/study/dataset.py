@@ -14,13 +14,17 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
+    from bumpstop.study.store import Reader
+
 __all__ = ["labelled"]
 
 _OWN = ("message", "status")
+_BLOCK = 4096
+"""Runs whose messages are read at a time."""
 
 
 def labelled(
-    definition: Mapping[str, Any], arrays: Mapping[str, Array], values: Mapping[str, NDArray[Any]]
+    definition: Mapping[str, Any], arrays: Mapping[str, Array], read: Reader
 ) -> xr.Dataset:
     """Return the results of a study.
 
@@ -28,8 +32,10 @@ def labelled(
     ----------
     definition
         What the study is.
-    arrays, values
-        Its arrays, and what is in them.
+    arrays
+        Its arrays.
+    read
+        Reads what is in them.
 
     Returns
     -------
@@ -48,7 +54,7 @@ def labelled(
             continue
         if name in names:
             if name not in coordinates:
-                coordinates[name] = ("run", _worded(values[name], array.attributes))
+                coordinates[name] = ("run", _worded(read(name), array.attributes))
             continue
         attributes = dict(array.attributes)
         if "times" in attributes:
@@ -56,9 +62,10 @@ def labelled(
             instants = np.array(attributes.pop("times"))
             told = {"units": "s", "long_name": "time"}
             coordinates[dimension] = (dimension, instants, told)
-        found[name] = (*shaped.placed(values[name], array.dimensions[1:]), attributes)
-    found["failed"] = shaped.placed(values["status"] == FAILED, ())
-    found["message"] = shaped.placed(_messages(values), ())
+        found[name] = (*shaped.placed(read(name), array.dimensions[1:]), attributes)
+    failed = read("status") == FAILED
+    found["failed"] = shaped.placed(failed, ())
+    found["message"] = shaped.placed(_messages(failed, read), ())
     dataset = xr.Dataset(found, coordinates, attrs={"case": definition["title"]})
     return dataset.transpose(*names, ...) if shaped.names else dataset
 
@@ -98,8 +105,12 @@ def _worded(numbers: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[Any
     return np.array([words[number] if number >= 0 else "" for number in numbers], dtype=object)
 
 
-def _messages(values: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
-    texts = np.full(len(values["status"]), "", dtype=object)
-    for run in np.flatnonzero(values["status"] == FAILED):
-        texts[run] = unpacked_message(values["message"][run])
+def _messages(failed: NDArray[np.bool_], read: Reader) -> NDArray[Any]:
+    """Return why runs failed; only what is said of failed ones is read."""
+    texts = np.full(len(failed), "", dtype=object)
+    for start in range(0, len(failed), _BLOCK):
+        runs = np.flatnonzero(failed[start : start + _BLOCK])
+        if len(runs):
+            block = read("message", slice(start, start + _BLOCK))
+            texts[start + runs] = [unpacked_message(block[run]) for run in runs]
     return texts

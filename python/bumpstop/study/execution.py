@@ -10,7 +10,7 @@ import numpy as np
 
 from bumpstop.arguments import count
 from bumpstop.study.evaluation import FAILED, GOOD
-from bumpstop.study.pool import Task, evaluated, usable_cores
+from bumpstop.study.pool import evaluated, usable_cores
 
 if TYPE_CHECKING:
     from bumpstop.study.store import Store
@@ -72,19 +72,18 @@ def execute(
     """
     started = monotonic()
     layout = study.layout
-    there = store.status()[:: layout.chunk] > 0
-    tasks = [study.task(chunk) for chunk in np.flatnonzero(~there).tolist()]
+    there = int(np.count_nonzero(store.read("status")))
+    chunks = np.flatnonzero(store.read("status")[:: layout.chunk] == 0).tolist()
     workers = usable_cores() if workers is None else count("workers", workers)
-    workers = max(1, min(workers, len(tasks)))
-    done = layout.count - sum(_size(task) for task in tasks)
+    workers = max(1, min(workers, len(chunks)))
     made = failed = 0
-    for task, kept in evaluated(study.recipe, tasks, workers):
+    for task, kept in evaluated(study.recipe, chunks, study.task, workers):
         store.write(task.chunk, layout.columns(task.columns), kept)
-        made += _size(task)
+        made += len(kept.status)
         failed += int(np.count_nonzero(kept.status == FAILED))
         if progress is not None:
-            progress(Progress(done + made, layout.count, made, failed))
-    status = store.status()
+            progress(Progress(there + made, layout.count, made, failed))
+    status = store.read("status")
     assert np.all((status == GOOD) | (status == FAILED))
     return Summary(
         runs=layout.count,
@@ -93,7 +92,3 @@ def execute(
         seconds=monotonic() - started,
         workers=workers,
     )
-
-
-def _size(task: Task) -> int:
-    return len(next(iter(task.columns.values())))

@@ -37,6 +37,8 @@ class Array:
 
     def empty(self) -> NDArray[Any]:
         """Return it with nothing in it yet."""
+        if self.fill == 0:
+            return np.zeros(self.shape, self.dtype)  # takes memory where it is written alone
         return np.full(self.shape, self.fill, self.dtype)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from queue import Empty, Queue, SimpleQueue
 from subprocess import PIPE, Popen
@@ -48,31 +48,35 @@ def usable_cores() -> int:
     return os.cpu_count() or 1
 
 
-def evaluated(recipe: Recipe, tasks: Sequence[Task], workers: int) -> Iterator[Done]:
-    """Yield what is kept of each task, in the order in which they are done.
+def evaluated(
+    recipe: Recipe, chunks: Sequence[int], task_of: Callable[[int], Task], workers: int
+) -> Iterator[Done]:
+    """Yield what is kept of each chunk, in the order in which they are done.
 
     Parameters
     ----------
     recipe
         How runs are made.
-    tasks
-        The runs.
+    chunks
+        Numbers of the chunks to be made.
+    task_of
+        Tells the runs of a chunk, when its turn has come.
     workers
         How many processes; with one, the runs are made in this process.
     """
-    if workers == 1 or len(tasks) < 2:
+    if workers == 1 or len(chunks) < 2:
         evaluator = Evaluator(recipe)
-        for task in tasks:
+        for task in map(task_of, chunks):
             yield Done(task, evaluator.kept(task.columns))
         return
-    todo: SimpleQueue[Task] = SimpleQueue()
-    for task in tasks:
-        todo.put(task)
+    todo: SimpleQueue[int] = SimpleQueue()
+    for chunk in chunks:
+        todo.put(chunk)
     # Bounded, so that results do not pile up where the disk is slower than the workers.
     done: Queue[Done | Exception] = Queue(maxsize=2 * workers)
-    feeders = [_Feeder(recipe, todo, done) for _ in range(min(workers, len(tasks)))]
+    feeders = [_Feeder(recipe, todo, task_of, done) for _ in range(workers)]
     try:
-        for _ in tasks:
+        for _ in chunks:
             found = done.get()
             if isinstance(found, Exception):
                 raise found
@@ -98,10 +102,15 @@ class _Feeder:
     """Takes tasks, has a process make them, and hands over what comes back."""
 
     def __init__(
-        self, recipe: Recipe, todo: SimpleQueue[Task], done: Queue[Done | Exception]
+        self,
+        recipe: Recipe,
+        todo: SimpleQueue[int],
+        task_of: Callable[[int], Task],
+        done: Queue[Done | Exception],
     ) -> None:
         self._recipe = recipe
         self._todo = todo
+        self._task_of = task_of
         self._done = done
         self._ended = False
         self._worker: Worker | None = None
@@ -120,7 +129,7 @@ class _Feeder:
         """Work until nothing is left to do."""
         try:
             while True:
-                task = self._todo.get_nowait()
+                task = self._task_of(self._todo.get_nowait())
                 self._done.put(Done(task, self._kept(task)))
         except (Empty, _EndedError):
             self.end()

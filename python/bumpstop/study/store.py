@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from bumpstop.study.evaluation import Kept
 
-__all__ = ["MemoryStore", "Store", "ZarrStore", "open_zarr_store", "read_store"]
+__all__ = ["MemoryStore", "Reader", "Store", "ZarrStore", "open_zarr_store", "read_store"]
 
 DEFINITION = "bumpstop_study"
 """Attribute of a store that says which study it is of."""
@@ -34,17 +34,24 @@ _PARTIAL = "*.partial"
 """What zarr calls files that it has not written to their end."""
 
 
+ALL = slice(None)
+
+
+class Reader(Protocol):
+    """Reads an array of a study by its name: some runs, or all."""
+
+    def __call__(self, name: str, part: slice = ALL) -> NDArray[Any]:
+        """Return what it holds."""
+
+
 class Store(Protocol):
     """Keeps what is kept of runs."""
 
     def write(self, chunk: int, columns: Mapping[str, NDArray[Any]], kept: Kept) -> None:
         """Keep a chunk of runs with the values of their parameters."""
 
-    def status(self) -> NDArray[Any]:
-        """Return how each run ended, (run,)."""
-
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        """Return all arrays of the layout, whole."""
+    def read(self, name: str, part: slice = ALL) -> NDArray[Any]:
+        """Return what an array of the layout holds of some runs, or of all."""
 
 
 class MemoryStore:
@@ -60,13 +67,9 @@ class MemoryStore:
         for name, values in _arrays_of(columns, kept).items():
             self._arrays[name][part] = values
 
-    def status(self) -> NDArray[Any]:
-        """Return how each run ended."""
-        return self._arrays["status"]
-
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        """Return the arrays."""
-        return self._arrays
+    def read(self, name: str, part: slice = ALL) -> NDArray[Any]:
+        """Return what an array holds."""
+        return self._arrays[name][part]
 
 
 class ZarrStore:
@@ -96,15 +99,10 @@ class ZarrStore:
             for name, values in _arrays_of(columns, kept).items():
                 self._arrays[name][part] = values
 
-    def status(self) -> NDArray[Any]:
-        """Return how each run ended."""
+    def read(self, name: str, part: slice = ALL) -> NDArray[Any]:
+        """Return what an array holds."""
         with _said(self._path):
-            return np.asarray(self._arrays["status"][:])
-
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        """Return the arrays, read whole."""
-        with _said(self._path):
-            return {name: np.asarray(array[:]) for name, array in self._arrays.items()}
+            return np.asarray(self._arrays[name][part])
 
 
 def open_zarr_store(
@@ -143,8 +141,8 @@ def open_zarr_store(
     return ZarrStore(path, layout)
 
 
-def read_store(path: Path) -> tuple[dict[str, Any], dict[str, Array], dict[str, NDArray[Any]]]:
-    """Return what study a store is of, its arrays by name, and their values.
+def read_store(path: Path) -> tuple[dict[str, Any], dict[str, Array], Reader]:
+    """Return what study a store is of, its arrays by name, and what reads them.
 
     Raises
     ------
@@ -153,9 +151,14 @@ def read_store(path: Path) -> tuple[dict[str, Any], dict[str, Array], dict[str, 
     """
     group = _opened(path)
     with _said(path):
-        arrays = {name: _described(array) for name, array in group.arrays()}
-        values = {name: np.asarray(array[:]) for name, array in group.arrays()}
-    return group.attrs[DEFINITION], arrays, values
+        stored = dict(group.arrays())
+        arrays = {name: _described(array) for name, array in stored.items()}
+
+    def read(name: str, part: slice = ALL) -> NDArray[Any]:
+        with _said(path):
+            return np.asarray(stored[name][part])
+
+    return group.attrs[DEFINITION], arrays, read
 
 
 def _opened(path: Path) -> Any:
@@ -243,8 +246,10 @@ def _shown(value: Any) -> str:
 
 def _arrays_of(columns: Mapping[str, NDArray[Any]], kept: Kept) -> dict[str, NDArray[Any]]:
     """Return the parts of all arrays, that of the status last."""
-    messages = np.stack([packed_message(message) for message in kept.messages])
-    return {**columns, **kept.values, "message": messages, "status": kept.status}
+    told = {}
+    if any(kept.messages):
+        told["message"] = np.stack([packed_message(message) for message in kept.messages])
+    return {**columns, **kept.values, **told, "status": kept.status}
 
 
 def _require_zarr() -> None:

@@ -185,7 +185,7 @@ class Study:
 
         opened = self.opened(store, resume=resume)
         execute(self, opened, workers, progress)
-        return labelled(self.definition, self.layout.arrays, opened.arrays())
+        return labelled(self.definition, self.layout.arrays, opened.read)
 
     def opened(self, store: str | PathLike[str] | None, *, resume: bool) -> Store:
         """Return where results are kept; see `run`."""
