@@ -215,7 +215,7 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(
 
 def test_nodes_are_told_as_the_supports_carry_them(tmp_path: Path) -> None:
     case = bs.load_case(Path(__file__).parents[2] / "cases" / "sdnd102a-supports" / "case.toml")
-    response = bs.simulate(case.problems["wall"]).at(np.linspace(0.0, 0.3, 31))
+    response = bs.simulate(case.problems["base"]).at(np.linspace(0.0, 0.3, 31))
     response.to_netcdf(tmp_path / "response.nc")
     with h5py.File(tmp_path / "response.nc") as file:
         nodes = [name.decode() for name in file["node"][:]]
