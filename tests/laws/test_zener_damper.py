@@ -121,3 +121,11 @@ def test_a_node_that_does_not_move_is_refused() -> None:
     basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [0.0]})
     with pytest.raises(bs.InputError, match="no mode deforms this damper"):
         bs.Problem(basis, laws=[damper()], duration=1.0)
+
+
+def test_the_report_tells_what_it_is_made_of() -> None:
+    from bumpstop.report.summary import model_rows
+
+    told = dict(model_rows(shaken(damper(exponent=0.5))))["Laws"][0]
+    assert told.startswith("damper: a Zener damper at P along (1, 0, 0), springs of 900 N/m")
+    assert told.endswith("dashpot of 8 N at 1 m/s, power 0.5")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.laws import Friction, HertzStop, RigidStop, SpringLaw, Stop
+from bumpstop.laws import Friction, HertzStop, RigidStop, SpringLaw, Stop, ZenerDamper
 from bumpstop.loads import (
     BaseMotion,
     Gravity,
@@ -243,6 +243,12 @@ def _law(law: Law) -> str:
         return (
             f"{law.name}: a rigid {law.obstacle} {_pushing(law.coordinate)}, {gap}, {restitution}"
         )
+    if isinstance(law, ZenerDamper):
+        springs = (law.series_stiffness, law.parallel_stiffness, law.branch_stiffness)
+        told = ", ".join(with_unit(stiffness, "N/m") for stiffness in springs)
+        where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"
+        dashpot = f"{with_unit(law.damping, 'N')} at 1 m/s, power {_plain(law.exponent)}"
+        return f"{law.name}: a Zener damper {where}, springs of {told}, dashpot of {dashpot}"
     if isinstance(law, HertzStop):
         gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
         force = f"{significant(law.stiffness, 4)} N/m^{_plain(law.exponent)}"
