@@ -162,6 +162,16 @@ mod tests {
     }
 
     #[test]
+    fn memory_of_another_run_leaves_no_trace() {
+        for method in METHODS {
+            let small = || motion(&run(method, 5, vec![stop(5, 1e-3)]));
+            let fresh = std::thread::scope(|scope| scope.spawn(small).join().unwrap());
+            drop(run(method, 20, vec![stop(20, 1e-3)]));
+            assert_eq!(small(), fresh);
+        }
+    }
+
+    #[test]
     fn counts_known_when_compiling_give_the_bits_of_any_other() {
         for method in METHODS {
             let known = run(method, 8, vec![stop(8, 1e-3)]);

@@ -8,6 +8,7 @@ use crate::law::{Law, State};
 use crate::method::observe;
 use crate::number::{Block, LANES, blocks};
 use crate::problem::Problem;
+use std::cell::Cell;
 
 /// The most memory that a record may take, in bytes.
 const LARGEST_RECORD: f64 = 4.0 * 1024.0 * 1024.0 * 1024.0;
@@ -15,8 +16,17 @@ const LARGEST_RECORD: f64 = 4.0 * 1024.0 * 1024.0 * 1024.0;
 /// How often the observer is asked, in steps; a multiple of [`STRETCH`].
 const STEPS_BETWEEN_OBSERVATIONS: usize = 1024;
 
-/// Steps for which room is made at once: few enough to stay in the nearest cache.
+/// Steps for which room is made at once.
 const STRETCH: usize = 64;
+
+/// Most blocks of memory that are left to another run: a mebibyte.
+const MOST_SPARE: usize = 1 << 14;
+
+thread_local! {
+    /// Memory of a record that nobody needs any more, with whatever it holds: a run writes over
+    /// it, and to fill it with zeros first would take a good part of the time of that.
+    static SPARE: Cell<Vec<Block>> = const { Cell::new(Vec::new()) };
+}
 
 /// From which neighbouring displacements a scheme takes its velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,8 +47,19 @@ pub struct StepRecord {
     modes: usize,
     stride: usize,
     rule: VelocityRule,
+    /// At least as long as the run needs.
     displacement: Vec<Block>,
+    /// How many of the blocks are written.
+    written: usize,
     states: States,
+}
+
+impl Drop for StepRecord {
+    fn drop(&mut self) {
+        if self.displacement.len() <= MOST_SPARE {
+            SPARE.set(std::mem::take(&mut self.displacement));
+        }
+    }
 }
 
 /// Room for the results of some consecutive steps. A march writes into it without a call or a
@@ -87,13 +108,19 @@ impl StepRecord {
             });
         }
         let steps = count as usize;
+        let blocks = (steps + 3) * stride;
+        let mut displacement = SPARE.take();
+        if displacement.len() < blocks {
+            displacement = vec![[0.0; LANES]; blocks];
+        }
         Ok(Self {
             dt,
             steps,
             modes,
             stride,
             rule,
-            displacement: Vec::with_capacity((steps + 3) * stride),
+            displacement,
+            written: 0,
             states: States::new(problem.laws.len(), steps),
         })
     }
@@ -101,11 +128,18 @@ impl StepRecord {
     /// Keeps the displacements one step before the start and at the start, and the laws' states
     /// there. Returns these.
     pub(crate) fn begin<P: Law>(&mut self, setting: &Setting<'_, P>, before: &[f64]) -> Vec<State> {
-        self.displacement.extend(blocks(before));
-        self.displacement.extend(blocks(setting.displacement));
+        self.keep(before);
+        self.keep(setting.displacement);
         let first = setting.first_states();
         self.states.begin(&first, P::REMEMBERS);
         first
+    }
+
+    /// Keeps the displacements of one step.
+    fn keep(&mut self, displacement: &[f64]) {
+        let row = blocks(displacement);
+        self.displacement[self.written..][..row.len()].copy_from_slice(&row);
+        self.written += row.len();
     }
 
     /// Room for the next steps, until there are no more.
@@ -113,13 +147,13 @@ impl StepRecord {
     pub(crate) fn next_stretch(&mut self) -> Option<Stretch<'_>> {
         let first = self.states.steps();
         let count = STRETCH.min(self.steps + 1 - first);
-        let rows = self.displacement.len();
-        (self.displacement).resize(rows + count * self.stride, [0.0; LANES]);
+        let first_row = self.written;
+        self.written += count * self.stride;
         (count > 0).then(|| Stretch {
             start: first
                 .is_multiple_of(STEPS_BETWEEN_OBSERVATIONS)
                 .then_some(first as f64 * self.dt),
-            rows: &mut self.displacement[rows..],
+            rows: &mut self.displacement[first_row..self.written],
             states: self.states.make_room(count),
         })
     }
