@@ -11,7 +11,7 @@
 //! matrix eigenvalue problems, SIAM Review 15, 1973). It is found with the nearer pole as
 //! origin by rational interpolation in the "middle way" (R.-C. Li, Solving secular equations
 //! stably and efficiently, LAPACK Working Note 89, 1993); first-order damping then starts
-//! Newton's method on `D_o f` in the complex plane, with the distance from the nearest damped
+//! Halley's method on `D_o f` in the complex plane, with the distance from the nearest damped
 //! pole as unknown, so that weakly coupled modes lose no digits.
 
 use super::poles::{Eigenvalue, Nearest};
@@ -22,11 +22,12 @@ use crate::number::{Complex, Instructions, LANES, Lanes, Number};
 /// better than one leaves the root.
 const MIDDLE_WAY_STEPS: usize = 1;
 
-/// Newton steps allowed; two suffice for light damping.
-const NEWTON_STEPS: usize = 8;
+/// Halley steps allowed; two suffice for light damping.
+const HALLEY_STEPS: usize = 8;
 
-/// A Newton step below this part of the unknown makes the next error vanish in rounding.
-const CONVERGED: f64 = 3e-8;
+/// A step below this part of the unknown makes the next error vanish in rounding, even where
+/// damping leaves no more than Newton's order.
+const CONVERGED: f64 = 6e-8;
 
 /// Modes that one spring couples, sorted by `omega2`, no two of them alike, no `phi` zero.
 #[derive(Debug, Clone, Default)]
@@ -107,7 +108,7 @@ impl Coupling {
         }
         let (z_low, z_high) = (k * bracket.phi2_lower, k * bracket.phi2_upper);
         let at_middle = rest + (z_high - z_low) / middle;
-        let origin = Nearest::beside(self, bracket, at_middle);
+        let origin = bracket.nearest(at_middle);
         // Distances of the two poles from the present point, here from the origin pole.
         let low = bracket.lower - origin.omega2;
         let high = bracket.upper - origin.omega2;
@@ -150,7 +151,9 @@ impl Coupling {
         )
     }
 
-    /// Newton's method on `D_o f`, all lanes together.
+    /// Halley's method on `D_o f`, all lanes together. In its second derivative all modes have the
+    /// damping of the nearest one: exact where no root is, between the modes, and otherwise an
+    /// error of the step that is small with the damping.
     #[inline(always)]
     fn damped<I: Instructions>(
         &self,
@@ -183,12 +186,14 @@ impl Coupling {
         eigenvalue.set(delta);
         let k = Lanes::<I>::of(self.stiffness);
         let c = Lanes::<I>::of(self.stop_damping);
-        for _ in 0..NEWTON_STEPS {
+        let one = Lanes::<I>::of(1.0);
+        for _ in 0..HALLEY_STEPS {
             let s = eigenvalue.value;
             let kappa = Complex::new(c.mul_add(s.re, k), c * s.im);
-            // sums of phi^2/D, phi^2/D^2 and c phi^2/D^2
+            // sums of phi^2/D, phi^2/D^2, phi^2/D^3 and c phi^2/D^2
             let mut sum = Complex::zero();
             let mut squares = Complex::zero();
+            let mut cubes = Complex::zero();
             let mut damped_squares = Complex::zero();
             let near = eigenvalue.near();
             let modes = self.omega2.iter().zip(&self.damping).zip(&self.phi);
@@ -196,22 +201,31 @@ impl Coupling {
             for (((omega2, damping), phi), row) in modes.zip(rows) {
                 let phi2 = Lanes::<I>::of(phi * phi);
                 let pole = eigenvalue.pole(near, *omega2, *damping);
-                let inverse = pole.conj().scale(pole.norm2().recip());
+                // A division: the units that multiply have enough to do.
+                let inverse = pole.conj().scale(one / pole.norm2());
                 row[block].put(inverse);
                 let term = inverse.scale(phi2);
                 sum += term;
                 let square = term * inverse;
                 squares += square;
+                cubes = square.mul_add(inverse, cubes);
                 damped_squares = square.scale_add(Lanes::<I>::of(*damping), damped_squares);
             }
-            // f = 1 + kappa sum,  f' = c sum - kappa (2 s squares + damped)
-            let two = Lanes::<I>::of(2.0);
-            let f = (kappa * sum).plus(Lanes::<I>::of(1.0));
-            let slope = sum.scale(c) - kappa * s.scale(two).mul_add(squares, damped_squares);
-            // Newton's step of D_o f is f / (D_o' f / D_o + f').
+            // f = 1 + kappa sum,  f' = c sum - kappa falls,
+            // f'' / 2 = kappa ((2 s + c_o)^2 cubes - squares) - c falls
+            let turn = s + s;
+            let rate = turn.plus(origin.damping);
+            let falls = turn.mul_add(squares, damped_squares);
+            let f = (kappa * sum).plus(one);
+            let slope = sum.scale(c) - kappa * falls;
+            let bend = kappa * ((rate * rate) * cubes - squares) - falls.scale(c);
+            // With g = D_o f the step is g / (g' - g g''/(2 g')), here all over D_o.
             let own = eigenvalue.own_pole().recip();
-            let own_rate = s.scale(two).plus(origin.damping) * own;
-            let step = f * own_rate.mul_add(f, slope).recip();
+            let own_rate = rate * own;
+            let slope_of_product = own_rate.mul_add(f, slope);
+            let bend_of_product = own.mul_add(f, own_rate.mul_add(slope, bend));
+            let denominator = slope_of_product * slope_of_product - f * bend_of_product;
+            let step = f * slope_of_product * denominator.recip();
             eigenvalue.set(eigenvalue.delta - step);
             let tolerance = Lanes::<I>::of(CONVERGED * CONVERGED) * eigenvalue.delta.norm2();
             let late = tolerance.select_less(step.norm2(), bracket.live, Lanes::<I>::of(0.0));
@@ -225,7 +239,7 @@ impl Coupling {
 }
 
 impl Coupling {
-    /// Carries `1 / D_i` along the last Newton step, from `before` to the eigenvalue. With
+    /// Carries `1 / D_i` along the last step, from `before` to the eigenvalue. With
     /// `D_i(new) = D_i(old) (1 + x)` the step is so small that `1 - x + x^2` is `1/(1 + x)`.
     #[inline(always)]
     fn follow<I: Instructions>(
@@ -255,8 +269,8 @@ struct Bracket<I: Instructions> {
     place: Lanes<I>,
     /// Minus one in lanes with a root, zero in the padding.
     live: Lanes<I>,
-    first: usize,
-    count: usize,
+    /// The modes below and above; above the last pole the last mode once more.
+    beside: [Nearest<I>; 2],
     lower: Lanes<I>,
     upper: Lanes<I>,
     phi2_lower: Lanes<I>,
@@ -274,23 +288,37 @@ impl<I: Instructions> Bracket<I> {
         let mut live = [0.0; LANES];
         let (mut lower, mut upper) = ([0.0; LANES], [0.0; LANES]);
         let (mut phi2_lower, mut phi2_upper) = ([0.0; LANES], [0.0; LANES]);
+        let (mut damping_lower, mut damping_upper) = ([0.0; LANES], [0.0; LANES]);
+        let mut above = [0.0; LANES];
         for lane in 0..LANES {
             let index = (first + lane).min(n - 1);
-            let (w2, phi) = (coupling.omega2[index], coupling.phi[index]);
+            let next = (index + 1).min(n - 1);
+            let (phi, phi_next) = (coupling.phi[index], coupling.phi[next]);
             places[lane] = index as f64 + 0.5;
             live[lane] = if first + lane < n { -1.0 } else { 0.0 };
-            (lower[lane], phi2_lower[lane]) = (w2, phi * phi);
-            (upper[lane], phi2_upper[lane]) = (beyond, 0.0);
-            if index + 1 < n {
-                let phi = coupling.phi[index + 1];
-                (upper[lane], phi2_upper[lane]) = (coupling.omega2[index + 1], phi * phi);
+            (lower[lane], phi2_lower[lane]) = (coupling.omega2[index], phi * phi);
+            (above[lane], phi2_upper[lane]) = (coupling.omega2[next], phi_next * phi_next);
+            upper[lane] = above[lane];
+            damping_lower[lane] = coupling.damping[index];
+            damping_upper[lane] = coupling.damping[next];
+            if next == index {
+                (upper[lane], phi2_upper[lane]) = (beyond, 0.0);
             }
         }
+        let beside = [
+            Nearest {
+                omega2: Lanes::new(lower),
+                damping: Lanes::new(damping_lower),
+            },
+            Nearest {
+                omega2: Lanes::new(above),
+                damping: Lanes::new(damping_upper),
+            },
+        ];
         Self {
             place: Lanes::new(places),
             live: Lanes::new(live),
-            first,
-            count: n,
+            beside,
             lower: Lanes::new(lower),
             upper: Lanes::new(upper),
             phi2_lower: Lanes::new(phi2_lower),
@@ -308,9 +336,16 @@ impl<I: Instructions> Bracket<I> {
         )
     }
 
+    /// The pole nearer to each root. f increases between poles: positive at the middle means a root
+    /// in the lower half.
     #[inline(always)]
-    fn index(&self, lane: usize) -> usize {
-        (self.first + lane).min(self.count - 1)
+    fn nearest(&self, at_middle: Lanes<I>) -> Nearest<I> {
+        let zero = Lanes::<I>::of(0.0);
+        let [below, above] = &self.beside;
+        Nearest {
+            omega2: zero.select_less(at_middle, below.omega2, above.omega2),
+            damping: zero.select_less(at_middle, below.damping, above.damping),
+        }
     }
 
     /// `yes` in the lanes whose root lies above pole i.
@@ -325,27 +360,6 @@ impl<I: Instructions> Bracket<I> {
         // The poles beside the root have numbers place - 1/2 and place + 1/2.
         let apart = (Lanes::<I>::of(i as f64) - self.place).abs();
         Lanes::<I>::of(0.75).select_less(apart, yes, no)
-    }
-}
-
-impl<I: Instructions> Nearest<I> {
-    /// f increases between poles: positive at the middle means a root in the lower half.
-    #[inline(always)]
-    fn beside(coupling: &Coupling, bracket: &Bracket<I>, at_middle: Lanes<I>) -> Self {
-        let n = coupling.omega2.len();
-        let at_middle = at_middle.numbers();
-        let (mut omega2, mut damping) = ([0.0; LANES], [0.0; LANES]);
-        for lane in 0..LANES {
-            let lower = bracket.index(lane);
-            let low = at_middle[lane] > 0.0 || lower + 1 == n;
-            let nearest = if low { lower } else { lower + 1 };
-            omega2[lane] = coupling.omega2[nearest];
-            damping[lane] = coupling.damping[nearest];
-        }
-        Self {
-            omega2: Lanes::new(omega2),
-            damping: Lanes::new(damping),
-        }
     }
 }
 
