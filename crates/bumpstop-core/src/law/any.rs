@@ -88,6 +88,10 @@ impl Law for AnyLaw {
         ask!(self, law => law.initial_state(motion, acting))
     }
 
+    fn starts_by_velocity(&self, motion: &LocalMotion) -> bool {
+        ask!(self, law => law.starts_by_velocity(motion))
+    }
+
     #[inline(always)]
     fn sampled_state(
         &self,

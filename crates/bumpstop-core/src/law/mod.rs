@@ -142,6 +142,12 @@ pub trait Law: Clone + Send + Sync {
     /// tells the motion that follows from one of its states.
     fn initial_state(&self, motion: &LocalMotion, acting: impl Fn(State) -> LocalMotion) -> State;
 
+    /// Whether position and velocity decide the state at t = 0, whatever the derivatives beyond
+    /// them, which `motion` leaves out.
+    fn starts_by_velocity(&self, _motion: &LocalMotion) -> bool {
+        false
+    }
+
     /// The state that a fixed-step scheme sees at one sampled instant, after the one that it saw
     /// at the step before; before the first step that is [`State::FIRST`].
     fn sampled_state(&self, previous: State, position: &Local<f64>, velocity: &Local<f64>)

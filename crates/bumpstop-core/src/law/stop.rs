@@ -142,6 +142,17 @@ impl Law for Stop {
         }
     }
 
+    fn starts_by_velocity(&self, motion: &LocalMotion) -> bool {
+        let distance = self.obstacle.distance(motion.position());
+        let [at_rest, still, ..] = motion.zero;
+        if distance.abs() > at_rest {
+            // Only a damper may pull where the stop is pressed in.
+            distance > 0.0 || self.damping == 0.0
+        } else {
+            motion.velocity()[0].abs() > still
+        }
+    }
+
     #[inline(always)]
     fn sampled_state(
         &self,
@@ -254,5 +265,40 @@ impl Law for Stop {
 
     fn stiffest(&self) -> Piece {
         self.piece(Self::CLOSED).unwrap_or(Piece::FREE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Values that are often zero or within rounding of it.
+    fn near_zero() -> impl Strategy<Value = f64> {
+        prop_oneof![Just(0.0), -2e-16f64..2e-16, -1.0f64..1.0]
+    }
+
+    proptest! {
+        #[test]
+        fn a_start_told_by_the_velocity_is_that_told_by_all_derivatives(
+            [position, velocity, acceleration, jerk] in prop::array::uniform4(near_zero()),
+            gap in prop_oneof![Just(0.0), 0.0f64..0.5],
+            damping in prop_oneof![Just(0.0), 0.1f64..10.0],
+        ) {
+            let stop = Stop::new(vec![1.0], gap, 5.0, damping).unwrap();
+            let zero = 1e-16;
+            let mut early = LocalMotion::of([position, 0.0, 0.0], [velocity, 0.0, 0.0]);
+            (early.zero[0], early.zero[1]) = (zero, zero);
+            let mut whole = early;
+            whole.derivatives[2][0] = acceleration;
+            whole.derivatives[3][0] = jerk;
+            whole.zero = [zero; 4];
+            if stop.starts_by_velocity(&early) {
+                let state = stop.initial_state(&whole, |_| whole);
+                prop_assert_eq!(stop.initial_state(&early, |_| early), state);
+            } else {
+                prop_assert!(position + gap <= zero);
+            }
+        }
     }
 }

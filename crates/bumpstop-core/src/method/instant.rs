@@ -30,7 +30,10 @@ pub(crate) fn initial_states<L: Law>(
     for _ in 0..problem.laws.len() {
         let mut settled = true;
         for (index, law) in problem.laws.iter().enumerate().filter(|(_, law)| soft(law)) {
-            let free = local_motion(problem, states, Some(index), index, moment);
+            let mut free = seen_by(problem, index, moment);
+            if !law.starts_by_velocity(&free) {
+                free = local_motion(problem, states, Some(index), index, moment);
+            }
             let state = law.initial_state(&free, |state| {
                 acting(problem, states, (index, state), moment)
             });
@@ -43,6 +46,25 @@ pub(crate) fn initial_states<L: Law>(
         changes = true;
     }
     changes
+}
+
+/// Position and velocity of one law's local coordinates, without what follows of forces.
+fn seen_by<L: Law>(problem: &Problem<L>, law: usize, moment: Moment<'_>) -> LocalMotion {
+    let (q, v) = (moment.displacement, moment.velocity);
+    let [position, velocity] = problem.local(law, moment.time, q, v);
+    let mut motion = LocalMotion::of(position, velocity);
+    for row in problem.laws[law].rows() {
+        for (factor, (q, v)) in row.iter().zip(q.iter().zip(v)) {
+            motion.zero[0] += ROUNDING * (factor * q).abs();
+            motion.zero[1] += ROUNDING * (factor * v).abs();
+        }
+    }
+    if problem.forcing.varies() {
+        let [moved, rate, ..] = problem.forcing.motion(law, moment.time);
+        motion.zero[0] += ROUNDING * moved.abs();
+        motion.zero[1] += ROUNDING * rate.abs();
+    }
+    motion
 }
 
 /// The local motion of one law if it goes on in a given state, the others in theirs.
@@ -84,6 +106,9 @@ pub(crate) fn rates<L: Law>(
     };
     Some([of_order(1), of_order(2)])
 }
+
+/// A sum below this part of the sizes of its terms counts as zero.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Numbers that take no memory from the heap: to ask for it takes as long as the sums of a few
 /// modes.
@@ -145,14 +170,14 @@ fn local_motion<L: Law>(
             let sizes = [q[mode].abs(), v[mode].abs(), size, jerk_size];
             for order in 0..4 {
                 derivatives[order] += factor * values[order];
-                zero[order] += 8.0 * f64::EPSILON * factor.abs() * sizes[order];
+                zero[order] += ROUNDING * factor.abs() * sizes[order];
             }
         }
         motion.add(coordinate, derivatives, zero);
     }
     if forcing.varies() {
         let moved = forcing.motion(of, moment.time);
-        let zero = |x: f64| 8.0 * f64::EPSILON * x.abs();
+        let zero = |x: f64| ROUNDING * x.abs();
         motion.add(0, moved.map(|x| -x), moved.map(zero));
     }
     motion
