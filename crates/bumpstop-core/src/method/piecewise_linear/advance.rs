@@ -243,15 +243,14 @@ impl Walk {
             sizes: &self.sizes,
             level: (self.tables).level::<I>(path.phase.spectrum, path.spectrum(), level),
         };
-        self.seen.clear();
-        for (watched, signal) in path.signals.iter().enumerate() {
-            let mut seen = cells.look::<I>(signal, path.phases, path.phase, &mut self.moved);
+        self.seen.resize(path.signals.len(), Seen::default());
+        for (watched, (signal, seen)) in path.signals.iter().zip(&mut self.seen).enumerate() {
+            cells.look::<I>(signal, path.phases, path.phase, &mut self.moved, seen);
             certificate.missed = certificate.missed.max(seen.jets.rounding);
             if path.departs(watched, time) {
                 // The first cell has a verdict of its own.
                 seen.clear &= !1;
             }
-            self.seen.push(seen);
         }
         if !path.curved.list.is_empty() {
             self.look_at_curved(path, time, level, certificate);
@@ -491,7 +490,8 @@ impl Walk {
             sizes: &self.sizes,
             level: (self.tables).level::<Plain>(phase.spectrum, path.spectrum(), cell.level),
         };
-        let seen = cells.look::<Plain>(&second, phases, phase, &mut self.moved);
+        let mut seen = Seen::default();
+        cells.look::<Plain>(&second, phases, phase, &mut self.moved, &mut seen);
         self.depart_from_zero(path, &second, &seen, None, cell)
     }
 }

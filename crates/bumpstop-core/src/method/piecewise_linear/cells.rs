@@ -34,7 +34,8 @@ pub(crate) struct Seen {
 }
 
 impl Cells<'_> {
-    /// Looks at a signal; `moved` is room for its terms.
+    /// Looks at a signal; `moved` is room for its terms, and `seen` is overwritten: it is large, and
+    /// not moved about.
     #[inline(always)]
     pub(crate) fn look<I: Instructions>(
         &self,
@@ -42,12 +43,11 @@ impl Cells<'_> {
         phases: &Phases,
         phase: Phase,
         moved: &mut Vec<Moved>,
-    ) -> Seen {
-        let mut seen = Seen::default();
-        let constant = self.bound::<I>(signal, phases, phase, moved, &mut seen);
+        seen: &mut Seen,
+    ) {
+        let constant = self.bound::<I>(signal, phases, phase, moved, seen);
         self.follow::<I>(signal, phases, phase, moved, constant, &mut seen.jets);
         seen.clear = seen.jets.clear::<I>(0.5 * self.level.width);
-        seen
     }
 
     /// Carries the terms to the left end, and bounds over all cells what is not followed. Returns

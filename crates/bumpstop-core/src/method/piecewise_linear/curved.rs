@@ -104,7 +104,11 @@ impl Curved {
     ) -> Seen {
         let radius = 0.5 * cells.level.width;
         let look = |signals: &[Signal], moved: &mut Vec<Moved>| -> Vec<Jets> {
-            let seen = |signal| cells.look::<Plain>(signal, phases, phase, moved).jets;
+            let seen = |signal| {
+                let mut seen = Seen::default();
+                cells.look::<Plain>(signal, phases, phase, moved, &mut seen);
+                seen.jets
+            };
             signals.iter().map(seen).collect()
         };
         let positions = look(&self.positions, moved);

@@ -6,6 +6,9 @@ use std::ops::Range;
 use std::slice::ChunksExact;
 use std::sync::Arc;
 
+/// Half of the lanes: groups whose positions and velocities are summed together.
+pub(crate) const HALF: usize = LANES / 2;
+
 /// Groups one behind the other, and the exponents, in whole blocks, of which they are made.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Family {
@@ -72,15 +75,42 @@ impl Family {
         let of_velocity = self.vectors.rows(2 * groups, groups).zip(velocity);
         for ((left, y), (left_rate, rate)) in of_position.zip(of_velocity) {
             let (y, rate) = (Lanes::<I>::of(*y), Lanes::<I>::of(*rate));
-            let both = left[first..].iter().zip(&left_rate[first..]);
-            for (total, (left, left_rate)) in totals.iter_mut().zip(both) {
-                *total = left.lanes().scale_add(y, *total);
-                *total = left_rate.lanes().scale_add(rate, *total);
+            let (left, left_rate) = (&left[first..][..BLOCKS], &left_rate[first..][..BLOCKS]);
+            for b in 0..BLOCKS {
+                totals[b] = left[b].lanes().scale_add(y, totals[b]);
+                totals[b] = left_rate[b].lanes().scale_add(rate, totals[b]);
             }
         }
         for (total, to) in totals.into_iter().zip(&mut to[first..]) {
             to.put(total);
         }
+    }
+
+    /// `Re sum_j shape_gj z_j` of four groups from one on, and behind them the same of the rates;
+    /// beyond the last group its own once more.
+    #[inline(always)]
+    pub(crate) fn sums<I: Instructions>(
+        &self,
+        first: usize,
+        [z, rate]: [&[ComplexBlock]; 2],
+    ) -> [f64; LANES] {
+        let last = self.groups - 1;
+        let shapes = [
+            self.shape(first),
+            self.shape(last.min(first + 1)),
+            self.shape(last.min(first + 2)),
+            self.shape(last.min(first + 3)),
+        ];
+        let mut sums = [Lanes::<I>::of(0.0); LANES];
+        for (b, (z, rate)) in z.iter().zip(rate).enumerate() {
+            let (z, rate) = (z.lanes(), rate.lanes());
+            for i in 0..HALF {
+                let shape = shapes[i][b].lanes();
+                sums[i] = shape.add_real_product(z, sums[i]);
+                sums[HALF + i] = shape.add_real_product(rate, sums[HALF + i]);
+            }
+        }
+        Lanes::totals(sums)
     }
 
     /// The entry of a row in a column counted from the first of all exponents; zero beside the

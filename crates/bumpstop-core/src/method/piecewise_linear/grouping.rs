@@ -91,6 +91,33 @@ impl Acting {
     }
 }
 
+/// Makes every mode a group of its own where a law sees them all and no two are alike or out of
+/// order, as is usual; `false` where that is not so.
+#[inline(always)]
+pub(crate) fn group_modes<L: Law>(
+    problem: &Problem<L>,
+    law: &Acting,
+    coupling: &mut Coupling,
+    members: &mut Vec<Member>,
+) -> bool {
+    let omega2 = problem.system.omega2();
+    let row = law.row(problem);
+    let rises = omega2.windows(2).all(|pair| pair[0] < pair[1]);
+    if !rises || row.contains(&0.0) {
+        return false;
+    }
+    coupling.start(law.stiffness, law.damping);
+    coupling.omega2.extend_from_slice(omega2);
+    coupling.damping.extend_from_slice(problem.system.damping());
+    coupling.phi.extend_from_slice(row);
+    members.extend((0..row.len()).map(|mode| Member {
+        mode,
+        group: mode,
+        weight: 1.0,
+    }));
+    true
+}
+
 /// Sorts the modes that a law sees and joins those that are alike (same `omega2`, same damping)
 /// to groups.
 #[inline(always)]
@@ -105,28 +132,8 @@ pub(crate) fn group_alike<L: Law>(
     let row = law.row(problem);
     coupling.start(law.stiffness, law.damping);
     members.clear();
-    members.reserve(row.len());
-    let mut last = f64::NEG_INFINITY;
-    let mut sorted = true;
-    let modes = omega2.iter().zip(damping).zip(row).enumerate();
-    for (mode, ((omega2, damping), phi)) in modes {
-        if *phi != 0.0 {
-            sorted &= last < *omega2;
-            last = *omega2;
-            let group = coupling.push(*omega2, *damping, *phi);
-            members.push(Member {
-                mode,
-                group,
-                weight: 1.0,
-            });
-        }
-    }
-    if sorted {
-        return;
-    }
-    coupling.start(law.stiffness, law.damping);
     order.clear();
-    order.extend(members.drain(..).map(|member| member.mode));
+    order.extend((0..row.len()).filter(|mode| row[*mode] != 0.0));
     order.sort_by(|&a, &b| {
         (omega2[a].total_cmp(&omega2[b])).then(damping[a].total_cmp(&damping[b]))
     });

@@ -18,6 +18,7 @@ mod dissipation;
 mod enclosure;
 mod event;
 mod family;
+mod flight;
 mod grouping;
 mod held;
 mod impedance;
@@ -118,6 +119,8 @@ struct Scratch {
     fired: Vec<(usize, Guard)>,
     /// Where in its table each load stands.
     places: Vec<usize>,
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
 }
 
 thread_local! {
@@ -153,7 +156,10 @@ impl<'a, L: Law> Run<'a, L> {
     #[inline(always)]
     fn advance<I: Instructions>(&mut self, observer: Observer<'_>) -> Result<()> {
         let problem = self.problem;
-        let (mut q, mut v) = (problem.displacement.clone(), problem.velocity.clone());
+        let mut q = std::mem::take(&mut self.scratch.displacement);
+        let mut v = std::mem::take(&mut self.scratch.velocity);
+        q.clone_from(&problem.displacement);
+        v.clone_from(&problem.velocity);
         let mut states = self.start(&q, &mut v)?;
         let mut time = 0.0;
         self.scratch.walk.start(problem.duration);
@@ -195,6 +201,7 @@ impl<'a, L: Law> Run<'a, L> {
             self.phases.end(crossing.as_ref().map_or(limit, |c| c.time));
             let Some(crossing) = crossing else {
                 if knot >= problem.duration {
+                    (self.scratch.displacement, self.scratch.velocity) = (q, v);
                     return Ok(());
                 }
                 self.phases

@@ -2,7 +2,7 @@
 //! of them.
 
 use super::dense;
-use super::grouping::{Acting, group_alike, group_forces, static_groups};
+use super::grouping::{Acting, group_alike, group_forces, group_modes, static_groups};
 use super::rows::Rows;
 use super::secular::Coupling;
 use super::spectrum::{Secular, Spectrum, Workbench, safe_recip};
@@ -22,11 +22,19 @@ impl Spectrum {
         bench: &mut Workbench,
     ) -> Result<()> {
         let coupling = &mut bench.coupling;
-        group_alike(problem, law, &mut bench.order, coupling, &mut self.members);
-        self.combinations = coupling.omega2.len();
         let modal = problem.forcing.forces();
-        group_forces(modal, &self.members, self.combinations, &mut bench.forces);
+        self.groups_are_modes = group_modes(problem, law, coupling, &mut self.members);
+        if self.groups_are_modes {
+            bench.forces.clear();
+            bench.forces.extend_from_slice(modal);
+        } else {
+            group_alike(problem, law, &mut bench.order, coupling, &mut self.members);
+            let groups = coupling.omega2.len();
+            group_forces(modal, &self.members, groups, &mut bench.forces);
+        }
+        self.combinations = coupling.omega2.len();
         if self.combinations == 1 {
+            self.groups_are_modes = false;
             self.add_lone_combination(problem, law, coupling, bench.forces[0]);
             return Ok(());
         }

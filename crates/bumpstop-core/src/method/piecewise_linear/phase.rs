@@ -181,21 +181,13 @@ impl Phases {
         for cluster in &which.clusters {
             cluster.set_drive(&mut work.z);
         }
-        if !which.singles.is_empty() {
+        if which.is_flight {
+            which.flight_amplitudes::<I>(q, v, &mut work.z);
+            keep(&mut self.kept, q, v);
+        } else if !which.singles.is_empty() {
             subtract(which, q, &work.position, &mut work.own_position);
             subtract(which, v, &work.velocity, &mut work.own_velocity);
-        }
-        for single in &which.singles {
-            let (x0, v0) = match single.subject {
-                Subject::Mode(mode) => (work.own_position[mode], work.own_velocity[mode]),
-                Subject::Combination(number) => (work.position[number], work.velocity[number]),
-            };
-            self.kept.extend([x0, v0]);
-            let amplitudes = single.motion.amplitudes(x0, v0);
-            let count = single.motion.count();
-            for (i, amplitude) in amplitudes[..count].iter().enumerate() {
-                set_entry(&mut work.z, single.at + i, *amplitude);
-            }
+            work.begin_singles(which, &mut self.kept);
         }
         self.amplitudes.extend_from_slice(&work.z);
         self.states.extend_from_slice(states);
@@ -302,6 +294,41 @@ impl Phases {
         for (position, rest) in work.position.iter_mut().zip(&spectrum.at_rest) {
             *position += rest;
         }
+        if spectrum.is_flight {
+            spectrum.flight_motion::<I>(work, q, v);
+            for &mode in &spectrum.aside {
+                let single = &spectrum.singles[mode];
+                (q[mode], v[mode]) = self.single_motion(phase, mode, single, t, work);
+            }
+        } else if spectrum.groups_are_modes {
+            q.copy_from_slice(&work.position);
+            v.copy_from_slice(&work.velocity);
+        } else {
+            self.modes_motion(phase, t, work, q, v);
+        }
+        if let Some(held) = &spectrum.held {
+            for (&mode, offset) in held.modes.iter().zip(&held.offsets) {
+                q[mode] += offset;
+            }
+        }
+        if let Some(response) = &spectrum.response {
+            let units = |harmonic: usize| self.unit(phase, response, harmonic);
+            let coefficients = self.coefficients(phase);
+            response.add_to(&spectrum.clusters, &work.z, coefficients, units, t, [q, v]);
+        }
+    }
+
+    /// Adds up singles and groups to modes.
+    #[inline(always)]
+    fn modes_motion(
+        &self,
+        phase: Phase,
+        t: f64,
+        work: &mut Workspace,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) {
+        let spectrum = &self.spectra[phase.spectrum];
         q.fill(0.0);
         v.fill(0.0);
         for (index, single) in spectrum.singles.iter().enumerate() {
@@ -316,16 +343,6 @@ impl Phases {
         for member in &spectrum.members {
             q[member.mode] += member.weight * work.position[member.group];
             v[member.mode] += member.weight * work.velocity[member.group];
-        }
-        if let Some(held) = &spectrum.held {
-            for (&mode, offset) in held.modes.iter().zip(&held.offsets) {
-                q[mode] += offset;
-            }
-        }
-        if let Some(response) = &spectrum.response {
-            let units = |harmonic: usize| self.unit(phase, response, harmonic);
-            let coefficients = self.coefficients(phase);
-            response.add_to(&spectrum.clusters, &work.z, coefficients, units, t, [q, v]);
         }
     }
 
@@ -366,6 +383,15 @@ impl Phases {
     }
 }
 
+/// Keeps the positions and velocities at the start of a phase of modes that move by themselves.
+#[inline(always)]
+fn keep(kept: &mut Vec<f64>, q: &[f64], v: &[f64]) {
+    kept.reserve(2 * q.len());
+    for (x, v) in q.iter().zip(v) {
+        kept.extend([*x, *v]);
+    }
+}
+
 /// What is left of the modal coordinates without the combinations.
 #[inline(always)]
 fn subtract(spectrum: &Spectrum, modal: &[f64], combined: &[f64], own: &mut Vec<f64>) {
@@ -377,6 +403,23 @@ fn subtract(spectrum: &Spectrum, modal: &[f64], combined: &[f64], own: &mut Vec<
 }
 
 impl Workspace {
+    /// Amplitudes of what moves by itself, and what is kept of it.
+    #[inline(always)]
+    fn begin_singles(&mut self, spectrum: &Spectrum, kept: &mut Vec<f64>) {
+        for single in &spectrum.singles {
+            let (x0, v0) = match single.subject {
+                Subject::Mode(mode) => (self.own_position[mode], self.own_velocity[mode]),
+                Subject::Combination(number) => (self.position[number], self.velocity[number]),
+            };
+            kept.extend([x0, v0]);
+            let amplitudes = single.motion.amplitudes(x0, v0);
+            let count = single.motion.count();
+            for (i, amplitude) in amplitudes[..count].iter().enumerate() {
+                set_entry(&mut self.z, single.at + i, *amplitude);
+            }
+        }
+    }
+
     /// Amplitudes of the coupled exponents, with the proof that they are complete: they must
     /// give the state back.
     ///
@@ -390,13 +433,14 @@ impl Workspace {
         self.lack_velocity.clear();
         self.given_position.resize(spectrum.groups, 0.0);
         self.given_velocity.resize(spectrum.groups, 0.0);
-        for (position, rest) in self.position.iter().zip(&spectrum.at_rest) {
-            self.lack_position.push(position - rest);
-            size = size.max(position.abs()).max(rest.abs());
+        self.lack_position.extend_from_slice(&self.position);
+        for (position, rest) in self.lack_position.iter_mut().zip(&spectrum.at_rest) {
+            size = either(size, either(position.abs(), rest.abs()));
+            *position -= rest;
         }
+        self.lack_velocity.extend_from_slice(&self.velocity);
         for velocity in &self.velocity {
-            self.lack_velocity.push(*velocity);
-            size_rate = size_rate.max(velocity.abs());
+            size_rate = either(size_rate, velocity.abs());
         }
         for (lack, rate) in self.lack_velocity.iter_mut().zip(&spectrum.rate_at_rest) {
             *lack -= rate;
@@ -443,6 +487,12 @@ impl Workspace {
         }
         (worst, worst_rate)
     }
+}
+
+/// The larger of two, in one instruction; the first where one is not a number.
+#[inline(always)]
+fn either(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }
 
 /// The larger of two, NaN if one is.

@@ -22,8 +22,9 @@ impl Polynomial {
     #[inline(always)]
     pub(crate) fn start(&mut self, constant: f64) {
         self.coefficients.truncate(3);
-        self.coefficients.fill(0.0);
-        self.coefficients[0] = constant;
+        if let Some(short) = self.coefficients.first_chunk_mut() {
+            *short = [constant, 0.0, 0.0];
+        }
     }
 
     /// Adds `value t^power`.

@@ -46,8 +46,11 @@ impl Recent {
             *own == digest && spectra[*number].serves(problem, states)
         };
         let found = self.kept.iter().rposition(serves)?;
-        self.kept[found..].rotate_left(1);
-        self.kept.last().map(|(_, number)| *number)
+        let latest = self.kept.len() - 1;
+        let used = self.kept[found];
+        self.kept.copy_within(found + 1.., found);
+        self.kept[latest] = used;
+        Some(used.1)
     }
 
     /// Keeps a number; the one that has not been used for longest goes where there are too many.

@@ -75,6 +75,26 @@ pub(crate) fn spread<I: Instructions>(block: &ComplexBlock, lane: usize) -> Comp
     Complex::new(Lanes::of(block.re[lane]), Lanes::of(block.im[lane]))
 }
 
+/// Up to eight numbers in lanes, zeros behind them.
+#[inline(always)]
+pub(crate) fn eight_of<I: Instructions>(numbers: &[f64]) -> Lanes<I> {
+    if let Some(all) = numbers.first_chunk() {
+        return Lanes::of_block(all);
+    }
+    let mut block = [0.0; LANES];
+    block[..numbers.len()].copy_from_slice(numbers);
+    Lanes::of_block(&block)
+}
+
+/// Up to eight numbers from lanes.
+#[inline(always)]
+pub(crate) fn put_eight<I: Instructions>(lanes: Lanes<I>, to: &mut [f64]) {
+    if let Some(all) = to.first_chunk_mut() {
+        return lanes.to_block(all);
+    }
+    to.copy_from_slice(&lanes.numbers()[..to.len()]);
+}
+
 /// Rows of equal length.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rows {

@@ -453,7 +453,13 @@ impl Signal {
         }
         let mut lanes = [0.0; LANES];
         lanes[..times.len()].copy_from_slice(times);
-        let sums = self.exponentials_over::<I>(order, phases, phase, Lanes::new(lanes));
+        let lanes = Lanes::new(lanes);
+        let sums = self.exponentials_over::<I>(order, phases, phase, lanes);
+        if self.is_plain() && self.clustered.is_empty() {
+            let values = sums + self.polynomial.short_over(lanes)[order];
+            samples.extend_from_slice(&values.numbers()[..times.len()]);
+            return;
+        }
         for (time, sum) in times.iter().zip(sums.numbers()) {
             let mut values = [0.0; 3];
             self.add_others(phases, phase, *time, &mut values);
@@ -494,6 +500,10 @@ impl Signal {
         for (terms, lambda) in self.terms.iter().zip(exponents) {
             let exponential = lambda.lanes().scale(time).exp();
             sum = (terms.of[order].lanes()).add_real_product(exponential, sum);
+        }
+        if self.is_plain() && self.clustered.is_empty() {
+            let [slow, ..] = self.polynomial.short_over(time)[order].numbers();
+            return sum.total() + slow;
         }
         let mut values = [0.0; 3];
         self.add_others(phases, phase, t, &mut values);

@@ -73,6 +73,12 @@ impl Spectrum {
     /// Adds the modes, or parts of modes, that no acting law sees.
     #[inline(always)]
     pub(super) fn add_singles<L: Law>(&mut self, problem: &Problem<L>, bench: &mut Workbench) {
+        if self.members.is_empty() && self.held.is_none() {
+            return self.add_modes(problem);
+        }
+        if self.groups_are_modes {
+            return;
+        }
         let (omega2, damping) = (problem.system.omega2(), problem.system.damping());
         let forces = problem.forcing.forces();
         let Workbench {

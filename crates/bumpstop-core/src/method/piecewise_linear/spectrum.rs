@@ -7,7 +7,7 @@
 
 use super::cluster::Cluster;
 use super::dense;
-use super::family::Family;
+use super::family::{Family, HALF};
 use super::grouping::Acts;
 use super::held::{Held, Reaction};
 use super::impedance::Impedance;
@@ -19,7 +19,7 @@ use super::singles::{Single, Subject};
 use super::view::View;
 use crate::error::Result;
 use crate::law::{Law, State};
-use crate::number::{Complex, Instructions, LANES, Lanes, Number};
+use crate::number::{Block, Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
 use std::sync::Arc;
 
@@ -58,6 +58,14 @@ pub(crate) struct Spectrum {
     /// Number of combinations that members belong to; a lone one is a single, not a group.
     pub combinations: usize,
     pub singles: Vec<Single>,
+    /// Whether it is free flight: see [`super::flight`].
+    pub is_flight: bool,
+    /// Where each mode rests in free flight.
+    pub(super) rests: Vec<Block>,
+    /// The modes that have no exponent there.
+    pub(super) aside: Vec<usize>,
+    /// Whether each mode is a coupled group of its own, all in order.
+    pub(super) groups_are_modes: bool,
     /// How each local coordinate sees the motion, in the order of laws and their rows.
     pub views: Vec<View>,
     /// Whether some exponent grows.
@@ -185,7 +193,7 @@ impl Spectrum {
         self.members.clear();
         self.singles.clear();
         (self.groups, self.coupled_width, self.combinations) = (0, 0, 0);
-        self.is_secular = false;
+        (self.is_secular, self.is_flight, self.groups_are_modes) = (false, false, false);
         self.held = None;
         self.response = None;
         self
@@ -348,7 +356,11 @@ impl Spectrum {
         let mut at = self.coupled_width * LANES;
         for single in &mut self.singles {
             single.at = at;
-            at += single.motion.exponents().1;
+            at += if self.is_flight {
+                1
+            } else {
+                single.motion.count()
+            };
         }
         self.forced_at = at;
         let harmonics = problem.forcing.harmonics();
@@ -396,6 +408,10 @@ impl Spectrum {
     /// Coordinates of groups: `sum weight q`.
     #[inline(always)]
     pub(crate) fn gather(&self, modal: &[f64], groups: &mut [f64]) {
+        if self.groups_are_modes {
+            groups.copy_from_slice(modal);
+            return;
+        }
         groups.fill(0.0);
         for m in &self.members {
             groups[m.group] += m.weight * modal[m.mode];
@@ -414,12 +430,17 @@ impl Spectrum {
         for family in self.families() {
             let state = [family.own(position), family.own(velocity)];
             let to = &mut to[family.first_block..][..family.width()];
-            let whole = family.width() / TILE * TILE;
-            for first in (0..whole).step_by(TILE) {
+            let (mut first, width) = (0, family.width());
+            while first + TILE <= width {
                 family.add_amplitudes::<I, TILE>(state, first, to);
+                first += TILE;
             }
-            for block in whole..family.width() {
-                family.add_amplitudes::<I, 1>(state, block, to);
+            if first + 2 <= width {
+                family.add_amplitudes::<I, 2>(state, first, to);
+                first += 2;
+            }
+            if first < width {
+                family.add_amplitudes::<I, 1>(state, first, to);
             }
         }
     }
@@ -433,32 +454,20 @@ impl Spectrum {
         [to, to_rate]: [&mut [f64]; 2],
     ) {
         for family in self.families() {
-            let (z, rate) = (&z[family.blocks()], &rate[family.blocks()]);
-            let mut shapes = family.shapes();
+            let turned = [&z[family.blocks()], &rate[family.blocks()]];
             let own = family.first_group..family.first_group + family.groups;
             let to = to[own.clone()].chunks_mut(HALF);
+            let mut first = 0;
             for (to, to_rate) in to.zip(to_rate[own].chunks_mut(HALF)) {
-                let mut sums = [Lanes::<I>::of(0.0); LANES];
-                let (positions, velocities) = sums.split_at_mut(HALF);
-                let pairs = positions.iter_mut().zip(velocities);
-                for ((position, velocity), shape) in pairs.zip(shapes.by_ref().take(to.len())) {
-                    for (shape, (z, rate)) in shape.iter().zip(z.iter().zip(rate)) {
-                        let shape = shape.lanes();
-                        *position = shape.add_real_product(z.lanes(), *position);
-                        *velocity = shape.add_real_product(rate.lanes(), *velocity);
-                    }
-                }
-                let totals = Lanes::totals(sums);
+                let totals = family.sums::<I>(first, turned);
                 for (i, (to, to_rate)) in to.iter_mut().zip(to_rate).enumerate() {
                     (*to, *to_rate) = (totals[i], totals[HALF + i]);
                 }
+                first += HALF;
             }
         }
     }
 }
-
-/// Half of the lanes.
-const HALF: usize = LANES / 2;
 
 /// Blocks of exponents that are taken together: their entries lie side by side in memory.
 const TILE: usize = 4;

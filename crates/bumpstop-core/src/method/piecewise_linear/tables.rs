@@ -112,17 +112,20 @@ impl Level {
             for (block, power) in powers.iter_mut().zip([half, half * whole, two, four]) {
                 block.put(power);
             }
-            for lane in 0..LANES {
-                // Padding has modulus zero, and exponents of zero are constants.
-                if moduli.0[lane] > 0.0 && moduli.0[lane] < self.limit {
-                    let mut middles = ComplexBlock::ZERO;
-                    middles.put(middles_of::<I>(&powers, lane));
-                    self.followed.push(Followed {
-                        block,
-                        lane,
-                        middles,
-                    });
-                }
+            // Padding has modulus zero, and exponents of zero are constants.
+            let moduli = moduli.lanes::<I>();
+            let moving = Lanes::of(0.0).less(moduli);
+            let mut followed = moving & moduli.less(Lanes::of(self.limit));
+            while followed != 0 {
+                let lane = followed.trailing_zeros() as usize;
+                followed &= followed - 1;
+                let mut middles = ComplexBlock::ZERO;
+                middles.put(middles_of::<I>(&powers, lane));
+                self.followed.push(Followed {
+                    block,
+                    lane,
+                    middles,
+                });
             }
         }
     }

@@ -70,6 +70,20 @@ impl View {
         }
         self.singles.clear();
         self.drifting.clear();
+        if spectrum.is_flight {
+            self.set_flight(spectrum, row);
+        } else {
+            self.see_singles(spectrum, row, combined);
+        }
+        self.links.clear();
+        if let Some(response) = &spectrum.response {
+            self.see_loads(response, &spectrum.clusters, row);
+        }
+    }
+
+    /// How a row sees what moves by itself, one after the other.
+    #[inline(always)]
+    fn see_singles(&mut self, spectrum: &Spectrum, row: &[f64], combined: &[f64]) {
         for single in &spectrum.singles {
             let weight = match single.subject {
                 Subject::Mode(mode) => row[mode],
@@ -84,10 +98,6 @@ impl View {
                 None if weight != 0.0 => self.drifting.push(self.singles.len() - 1),
                 None => {}
             }
-        }
-        self.links.clear();
-        if let Some(response) = &spectrum.response {
-            self.see_loads(response, &spectrum.clusters, row);
         }
     }
 
