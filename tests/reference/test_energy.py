@@ -25,13 +25,16 @@ def bouncing_ball(duration: float) -> StopProblem:
 
 
 def pressed_beam(duration: float) -> StopProblem:
-    """Return the undamped beam of SDNL32, its tip pressed onto the stop by 40 N."""
+    """Return the undamped beam of SDNL32, its tip pressed onto the stop by 40 N.
+
+    Its motion is chaotic: rounding moves the number of impacts by a tenth either way.
+    """
     beam = sdnl32.clean(45e3, ratio=0.0)
     return beam.but(force=-40.0 * beam.row, duration=duration)
 
 
 @pytest.mark.parametrize(
-    "problem", [bouncing_ball(7000.0), pressed_beam(60.0)], ids=["ball", "beam"]
+    "problem", [bouncing_ball(7000.0), pressed_beam(75.0)], ids=["ball", "beam"]
 )
 def test_ten_thousand_impacts_keep_the_energy(problem: StopProblem) -> None:
     history = problem.solve()

@@ -7,6 +7,7 @@
 //! [`event`] switches. The only approximation is rounding.
 
 mod advance;
+mod amplitudes;
 mod bracket;
 mod cells;
 mod cluster;
