@@ -11,7 +11,7 @@ EVENTS = 100
 IMPACTS = 10_000
 
 
-@pytest.mark.parametrize("seed", [6, 7, 12, 13, 29, 33, 38])
+@pytest.mark.parametrize("seed", [6, 7, 13, 14, 29, 33, 38])
 def test_a_hundred_events_backwards_lead_to_the_start(seed: int) -> None:
     problem = random_undamped(seed, longer=4.0)
     instants = problem.solve().events()["time"]
