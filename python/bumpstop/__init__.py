@@ -108,7 +108,9 @@ if TYPE_CHECKING:
     from bumpstop.study.outputs import Output
     from bumpstop.study.parameters import Distribution, Range, Values
     from bumpstop.study.sampling import Sampling
+    from bumpstop.study.sensitivity import sobol_indices
     from bumpstop.study.study import Study, open_study, study
+    from bumpstop.study.worst import WorstCase, worst_case
 
 __version__ = "0.1.0"
 
@@ -199,6 +201,7 @@ __all__ = [
     "Turbulence",
     "Values",
     "WearWork",
+    "WorstCase",
     "ZenerDamper",
     "amplitude_spectrum",
     "bifurcation",
@@ -231,12 +234,14 @@ __all__ = [
     "response_spectrum",
     "sampled_impacts",
     "simulate",
+    "sobol_indices",
     "spectrogram",
     "stroboscopic_section",
     "study",
     "wear",
     "wear_work",
     "work_by_sector",
+    "worst_case",
     "write_matrices",
 ]
 
@@ -327,6 +332,7 @@ _HOME = {
     "Turbulence": "loads.turbulence",
     "Values": "study.parameters",
     "WearWork": "post.wear",
+    "WorstCase": "study.worst",
     "ZenerDamper": "laws.zener_damper",
     "amplitude_spectrum": "post.signals",
     "bifurcation": "post.poincare",
@@ -344,8 +350,8 @@ _HOME = {
     "identify_modes": "io.modes",
     "impact_section": "post.poincare",
     "load_case": "io.case",
-    "lyapunov_exponents": "post.lyapunov",
     "load_study": "study.load",
+    "lyapunov_exponents": "post.lyapunov",
     "open_study": "study.study",
     "participation": "modal.masses",
     "periodicity": "post.poincare",
@@ -359,12 +365,14 @@ _HOME = {
     "response_spectrum": "post.response_spectrum",
     "sampled_impacts": "post.sampled",
     "simulate": "simulate",
+    "sobol_indices": "study.sensitivity",
     "spectrogram": "post.signals",
     "stroboscopic_section": "post.poincare",
     "study": "study.study",
     "wear": "post.wear",
     "wear_work": "post.wear",
     "work_by_sector": "post.sectors",
+    "worst_case": "study.worst",
     "write_matrices": "io.matrices",
 }
 """Where each public name lives."""

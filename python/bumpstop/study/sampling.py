@@ -17,7 +17,7 @@ from bumpstop.study.parameters import MOST_RUNS, Level, Parameter
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["SAMPLINGS", "Runs", "Sampling", "planned"]
+__all__ = ["SAMPLINGS", "Runs", "Sampling", "planned", "unit_samples"]
 
 DRAWN = ("latin_hypercube", "sobol", "monte_carlo")
 SAMPLINGS = ("grid", "list", *DRAWN)
@@ -133,7 +133,7 @@ def planned(
         runs.
     """
     if sampling.method in DRAWN:
-        shares = _shares(sampling, len(parameters))
+        shares = unit_samples(sampling, len(parameters))
         drawn = zip(parameters.items(), shares.T, strict=True)
         return Runs({name: each.quantiles(column) for (name, each), column in drawn}, None)
     levels = {name: _levels(name, each) for name, each in parameters.items()}
@@ -146,8 +146,8 @@ def planned(
     return Runs(ordered, shape)
 
 
-def _shares(sampling: Sampling, dimensions: int) -> FloatArray:
-    """Return samples of the unit cube, (run, parameter)."""
+def unit_samples(sampling: Sampling, dimensions: int) -> FloatArray:
+    """Return samples that are drawn of the unit cube, (run, dimension)."""
     from scipy.stats import qmc
 
     number = sampling.count or 0

@@ -1,0 +1,92 @@
+"""Sobol's indices and worst cases, against closed forms."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+from bumpstop.study.sampling import Sampling, unit_samples
+from bumpstop.study.sensitivity import indices_of
+from tests.study.bouncing import written
+
+FORCE = bs.Output(quantity="largest_force", stop="spring")
+STIFFNESS, MASS, GAP = "stops.spring.stiffness", "masses.ball.mass", "stops.spring.gap"
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> bs.Case:
+    written(tmp_path)
+    return bs.load_case(tmp_path / "case.toml")
+
+
+def test_indices_of_ishigamis_function() -> None:
+    # T. Ishigami, T. Homma, ISUMA '90: f = sin x + a sin^2 y + b z^4 sin x on (-pi, pi)^3.
+    a, b = 7.0, 0.1
+
+    def function(shares: np.ndarray) -> np.ndarray:
+        x, y, z = (2.0 * shares.T - 1.0) * math.pi
+        value: np.ndarray = np.sin(x) + a * np.sin(y) ** 2 + b * z**4 * np.sin(x)
+        return value
+
+    shares = unit_samples(Sampling("sobol", 2**14, 1), 6)
+    one, other = shares[:, :3], shares[:, 3:]
+    mixed = []
+    for number in range(3):
+        samples = one.copy()
+        samples[:, number] = other[:, number]
+        mixed.append(function(samples))
+    found = indices_of(function(one), function(other), np.array(mixed))
+    alone_x = 0.5 * (1 + b * math.pi**4 / 5) ** 2
+    alone_y = a**2 / 8
+    together = b**2 * math.pi**8 * (1 / 18 - 1 / 50)
+    variance = alone_x + alone_y + together
+    assert found.first == pytest.approx(np.array([alone_x, alone_y, 0]) / variance, abs=0.01)
+    expected = np.array([alone_x + together, alone_y, together]) / variance
+    assert found.total == pytest.approx(expected, abs=0.01)
+
+
+def test_indices_of_a_case(case: bs.Case) -> None:
+    # The force is 3 sqrt(k m): its logarithm is a sum, and small scatter makes it one, too. The
+    # gap does nothing.
+    scattered = {
+        STIFFNESS: bs.Distribution("lognormal", median=200.0, sigma=0.02),
+        MASS: bs.Distribution("lognormal", median=2.0, sigma=0.01),
+        GAP: bs.Range(0.4, 0.5),
+    }
+    found = bs.sobol_indices(case, scattered, {"force": FORCE}, count=64, workers=1)
+    assert found.parameter.values.tolist() == [STIFFNESS, MASS, GAP]
+    assert found.force_first.values == pytest.approx([0.8, 0.2, 0.0], abs=0.05)
+    assert found.force_total.values == pytest.approx([0.8, 0.2, 0.0], abs=0.05)
+
+
+def test_indices_need_all_runs_and_single_numbers(case: bs.Case) -> None:
+    with pytest.raises(bs.ComputationError, match="runs failed: stops"):
+        bs.sobol_indices(
+            case, {STIFFNESS: bs.Range(-1.0, 1.0)}, {"force": FORCE}, count=4, workers=1
+        )
+    signal = bs.Output(quantity="gap", stop="spring", times=[0.1, 0.2])
+    with pytest.raises(bs.InputError, match="must be a single number"):
+        bs.sobol_indices(case, {GAP: bs.Range(0.1, 0.2)}, {"gap": signal}, count=4)
+
+
+def test_the_worst_case_is_found_within(case: bs.Case) -> None:
+    # After the impact, -gap + 3 (t - gap / 3 - pi sqrt(m / k)) is largest for a gap of 0 and the
+    # stiffest spring.
+    last = bs.Output(quantity="displacement", node="P", dof="dz", statistic="last")
+    ranges = {GAP: bs.Range(0.0, 0.5), STIFFNESS: bs.Range(50.0, 800.0)}
+    found = bs.worst_case(case, ranges, last, runs=800)
+    best = 3.0 * (2.0 - math.pi * math.sqrt(2.0 / 800.0))
+    assert found.value == pytest.approx(best, rel=2e-3)
+    assert found.value <= best * (1 + 1e-12)
+    assert found.parameters[STIFFNESS] == pytest.approx(800.0, rel=0.02)
+    assert found.runs <= 800
+    assert found == bs.worst_case(case, ranges, last, runs=800)
+
+
+def test_searches_that_cannot_be(case: bs.Case) -> None:
+    with pytest.raises(bs.InputError, match="runs: must be 8 or more"):
+        bs.worst_case(case, {GAP: bs.Range(0.1, 0.2)}, FORCE, runs=3)
+    with pytest.raises(bs.ComputationError, match="all of the first 8 runs failed: stops"):
+        bs.worst_case(case, {STIFFNESS: bs.Range(-2.0, -1.0)}, FORCE, runs=16)
