@@ -115,6 +115,19 @@ def test_modes_are_computed_once(bouncing: bs.Study, monkeypatch: pytest.MonkeyP
     )
 
 
+def test_results_stand_where_their_parameters_are(bouncing: bs.Study, tmp_path: Path) -> None:
+    # The modes depend on the mass: it changes least often, although it is not the first.
+    varied = {GAP: [0.1, 0.2, 0.4], "masses.ball.mass": [2.0, 3.0], STIFFNESS: [100.0, 200.0]}
+    outputs = {"force": bouncing.outputs["force"], "start": bouncing.outputs["start"]}
+    store = tmp_path / "s.zarr"
+    found = bs.study(bouncing.case, varied, outputs, workers=1, store=store)
+    assert found.force.dims == tuple(varied)
+    gap, mass, stiffness = np.meshgrid(*varied.values(), indexing="ij")
+    assert found.force.values == pytest.approx(SPEED * np.sqrt(stiffness * mass), rel=1e-12)
+    assert found.start.values == pytest.approx(gap / SPEED, rel=1e-12)
+    assert bs.open_study(store).identical(found)
+
+
 def test_drawn_samples_lie_side_by_side(bouncing: bs.Study) -> None:
     found = bs.study(
         bouncing.case,

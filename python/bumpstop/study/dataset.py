@@ -9,6 +9,7 @@ import numpy as np
 
 from bumpstop.study.evaluation import FAILED
 from bumpstop.study.layout import Array, unpacked_message
+from bumpstop.study.parameters import recorded_parameter
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -46,7 +47,7 @@ def labelled(
     import xarray as xr
 
     names = list(definition["parameters"])
-    shaped = _Shape({name: arrays[name] for name in names if "levels" in arrays[name].attributes})
+    shaped = _Shape(_levels(definition))
     found: dict[str, Any] = {}
     coordinates: dict[str, Any] = dict(shaped.coordinates)
     for name, array in arrays.items():
@@ -70,18 +71,21 @@ def labelled(
     return dataset.transpose(*names, ...) if shaped.names else dataset
 
 
+def _levels(definition: Mapping[str, Any]) -> dict[str, Sequence[Any]]:
+    """Return the values of each parameter on a grid, the slowest first; none without a grid."""
+    if definition["sampling"]["method"] != "grid":
+        return {}
+    records = definition["parameters"]
+    return {name: recorded_parameter(records[name]).levels for name in definition["slowest_first"]}
+
+
 class _Shape:
     """How runs lie in an array: side by side, or on a grid."""
 
-    def __init__(self, grid: Mapping[str, Array]) -> None:
-        # On a grid the arrays stand in the order in which they vary, the slowest first.
-        self.names = tuple(grid)
-        levels: list[Sequence[Any]] = [array.attributes["levels"] for array in grid.values()]
-        self._sizes = tuple(map(len, levels))
-        self.coordinates = {
-            name: (name, _as_coordinate(each))
-            for name, each in zip(self.names, levels, strict=True)
-        }
+    def __init__(self, levels: Mapping[str, Sequence[Any]]) -> None:
+        self.names = tuple(levels)
+        self._sizes = tuple(map(len, levels.values()))
+        self.coordinates = {name: (name, _as_coordinate(each)) for name, each in levels.items()}
 
     def placed(
         self, values: NDArray[Any], more: Sequence[str]

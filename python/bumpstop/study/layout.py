@@ -87,12 +87,11 @@ class Layout:
     def _parameter(self, runs: Runs, name: str) -> Array:
         levels = runs.levels[name]
         words = self._words[name]
-        told = {"levels": list(levels)} if runs.shape is not None else {}
         if words:
-            return Array((self.count,), "int64", -1, ("run",), told | {"words": words})
+            return Array((self.count,), "int64", -1, ("run",), {"words": words})
         if np.asarray(levels).dtype.kind in "iu":
-            return Array((self.count,), "int64", -1, ("run",), told)
-        return Array((self.count,), "float64", np.nan, ("run",), told)
+            return Array((self.count,), "int64", -1, ("run",))
+        return Array((self.count,), "float64", np.nan, ("run",))
 
     def _output(self, name: str, output: Output) -> Array:
         shape = (self.count, *output.shape)

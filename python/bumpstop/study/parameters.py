@@ -16,7 +16,16 @@ from bumpstop.io.units import read_number_of_any_unit
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["MOST_RUNS", "Distribution", "Level", "Parameter", "Range", "Values", "as_parameter"]
+__all__ = [
+    "MOST_RUNS",
+    "Distribution",
+    "Level",
+    "Parameter",
+    "Range",
+    "Values",
+    "as_parameter",
+    "recorded_parameter",
+]
 
 Level: TypeAlias = float | int | str | bool
 """A value of a parameter, as a case file may have it."""
@@ -306,6 +315,20 @@ def as_parameter(value: object) -> Parameter:
         return Values(list(value))
     what = "must be a list of values, a Range or a Distribution"
     raise InputError(what, value=value)
+
+
+def recorded_parameter(record: Mapping[str, Any]) -> Parameter:
+    """Return the parameter that a record is of.
+
+    >>> recorded_parameter(Range(1, 4, 2).record)
+    Range(start=1, end=4, count=2, spacing='linear')
+    """
+    if "values" in record:
+        return Values(record["values"])
+    if "distribution" in record:
+        given = dict(record)
+        return Distribution(given.pop("distribution"), **given)
+    return Range(record["from"], record["to"], record["count"], record["spacing"])
 
 
 def _number(key: str, value: object) -> float:

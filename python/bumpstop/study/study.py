@@ -138,6 +138,7 @@ class Study:
             "files": dict(_digests(self.document, self.case.path.parent)),
             "parameters": {key: each.record for key, each in self.parameters.items()},
             "sampling": self.sampling.record,
+            "slowest_first": list(self.runs.names),
             "outputs": {key: each.record for key, each in self.outputs.items()},
             "chunk": self.layout.chunk,
         }
@@ -290,8 +291,8 @@ def study(
     ...     {"impacts": bs.Output(quantity="impacts")},
     ...     variant="stiff",
     ... )
-    >>> dict(found.sizes)
-    {'stops.spring.gap': 2, 'basis.modes': 2}
+    >>> found.impacts.dims, found.impacts.shape
+    (('stops.spring.gap', 'basis.modes'), (2, 2))
     """
     loaded = case if isinstance(case, Case) else load_case(case)
     made = Study(
