@@ -5,9 +5,9 @@ use crate::energy::{self, Ledger};
 use crate::error::{Error, Result, check_length};
 use crate::impacts::{Impact, Sample};
 use crate::law::{Law, Local, State, project};
-use crate::method::adaptive::AdaptiveRecord;
 use crate::method::fixed_step::StepRecord;
 use crate::method::piecewise_linear::PhaseRecord;
+use crate::method::polynomial_steps::PolynomialRecord;
 use crate::problem::Problem;
 use std::sync::{Arc, OnceLock};
 
@@ -43,7 +43,7 @@ pub enum Derivative {
 enum Record {
     Steps(StepRecord),
     Phases(PhaseRecord),
-    Adaptive(AdaptiveRecord),
+    Polynomials(PolynomialRecord),
 }
 
 /// The result of a run. It can be sampled anywhere in `[0, duration]`; at a switch the values
@@ -76,13 +76,13 @@ impl<L: Law> History<L> {
         Self::new(problem, method, Record::Phases(record), events)
     }
 
-    pub(crate) fn of_adaptive(
+    pub(crate) fn of_polynomials(
         problem: &Arc<Problem<L>>,
         method: &'static str,
-        record: AdaptiveRecord,
+        record: PolynomialRecord,
         events: Vec<Event>,
     ) -> Self {
-        Self::new(problem, method, Record::Adaptive(record), events)
+        Self::new(problem, method, Record::Polynomials(record), events)
     }
 
     fn new(
@@ -120,7 +120,7 @@ impl<L: Law> History<L> {
         match &self.record {
             Record::Steps(record) => record.steps,
             Record::Phases(record) => record.cells(),
-            Record::Adaptive(record) => record.steps(),
+            Record::Polynomials(record) => record.steps(),
         }
     }
 
@@ -128,7 +128,7 @@ impl<L: Law> History<L> {
     /// own rounding. `None` for methods with steps, whose error is larger than that.
     pub fn missed_penetration(&self) -> Option<f64> {
         match &self.record {
-            Record::Steps(_) | Record::Adaptive(_) => None,
+            Record::Steps(_) | Record::Polynomials(_) => None,
             Record::Phases(record) => Some(record.missed_penetration()),
         }
     }
@@ -138,7 +138,7 @@ impl<L: Law> History<L> {
     /// methods with steps.
     pub fn motion_error(&self) -> Option<f64> {
         match &self.record {
-            Record::Steps(_) | Record::Adaptive(_) => None,
+            Record::Steps(_) | Record::Polynomials(_) => None,
             Record::Phases(record) => Some(record.motion_error(&self.problem)),
         }
     }
@@ -148,7 +148,7 @@ impl<L: Law> History<L> {
         let modes = self.problem.system.modes();
         match &self.record {
             Record::Phases(record) => record.visit(times, modes, &mut see),
-            Record::Adaptive(record) => record.visit(times, see),
+            Record::Polynomials(record) => record.visit(times, see),
             Record::Steps(record) => {
                 let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
                 for &time in times {
@@ -277,7 +277,7 @@ impl<L: Law> History<L> {
                 (times.iter().map(|t| interpolate(ledgers, t / record.dt))).collect()
             }
             Record::Phases(record) => record.ledgers(&self.problem, times),
-            Record::Adaptive(record) => record.ledgers(&self.problem, times),
+            Record::Polynomials(record) => record.ledgers(&self.problem, times),
         })
     }
 
@@ -286,7 +286,7 @@ impl<L: Law> History<L> {
         match &self.record {
             Record::Steps(record) => energy::residual(self.step_ledgers(record).iter()),
             Record::Phases(record) => record.energy_residual(&self.problem),
-            Record::Adaptive(record) => record.energy_residual(&self.problem),
+            Record::Polynomials(record) => record.energy_residual(&self.problem),
         }
     }
 
@@ -300,7 +300,7 @@ impl<L: Law> History<L> {
                 crate::impacts::from_samples(&self.law_samples(law, &times))
             }
             Record::Phases(record) => record.impacts(&self.problem, law),
-            Record::Adaptive(record) => record.impacts(&self.problem, law),
+            Record::Polynomials(record) => record.impacts(&self.problem, law),
         }
     }
 

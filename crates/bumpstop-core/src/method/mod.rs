@@ -5,6 +5,7 @@ pub mod central_difference;
 pub mod fixed_step;
 pub(crate) mod instant;
 pub mod piecewise_linear;
+pub mod polynomial_steps;
 pub mod symplectic_euler;
 
 use crate::error::{Error, Result};

@@ -10,11 +10,11 @@
 //! stepsize selection in explicit Runge-Kutta methods, ACM Transactions on Mathematical Software
 //! 17, 533-554, 1991.
 
-use super::dense::add_weighted;
-use super::equations::Layout;
 use super::pair::Pair;
+use super::stepper::add_weighted;
 use crate::error::{Error, Result};
 use crate::law::Law;
+use crate::method::polynomial_steps::Layout;
 use crate::problem::Problem;
 
 /// How accurate a run is to be.

@@ -1,40 +1,30 @@
 //! Runge-Kutta methods with step control, dense output and located switches.
 //!
 //! They take every law that makes forces, smooth ones too. While no law switches, the equations
-//! are smooth: [`pair`] has the formulas, [`control`] the step. Each step is a polynomial in time
-//! ([`dense`]), on which the guards of the laws are bounded over the whole step, not only looked at
-//! where it ends ([`watch`]); the first zero ends the step, the law switches, and the next step
-//! starts there. The error of the motion is that of the steps, which the tolerance rules.
+//! are smooth: [`pair`] has the formulas, [`control`] the step. Each step is a polynomial in time,
+//! on which the guards of the laws are bounded over the whole step, not only looked at where it
+//! ends ([`super::polynomial_steps`]); the first zero ends the step, the law switches, and the next
+//! step starts there. The error of the motion is that of the steps, which the tolerance rules.
 
-mod bernstein;
-mod contact;
 mod control;
-mod curved;
-mod dense;
-mod equations;
-mod loads;
 mod pair;
-mod record;
 mod stepper;
-mod watch;
 
 pub use control::{FINEST, Tolerances};
 pub use pair::PairName;
-pub use record::AdaptiveRecord;
 
 use super::fixed_step::check_forces;
 use super::instant::{self, Moment};
+use super::polynomial_steps::{Crossing, Equations, PolynomialRecord, Step, Watch, longest_step};
 use super::{Observer, observe};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
 use crate::law::{Law, Local, LocalMotion, State};
 use crate::problem::Problem;
 use control::Control;
-use equations::Equations;
 use pair::Pair;
 use std::sync::Arc;
 use stepper::Stepper;
-use watch::{Crossing, LONGEST_TURN, Step, Watch};
 
 /// Switches of each law at one instant after which the run is given up.
 const MOST_SWITCHES_AT_ONCE: usize = 32;
@@ -66,7 +56,7 @@ pub fn simulate<L: Law>(
     check_forces(pair.name, &problem.laws)?;
     let mut run = Run::new(problem, pair, tolerances);
     run.advance(observer)?;
-    Ok(History::of_adaptive(
+    Ok(History::of_polynomials(
         problem, pair.name, run.record, run.events,
     ))
 }
@@ -85,7 +75,7 @@ struct Run<'a, L> {
     h: f64,
     /// The longest step, for obstacles that move in harmonics.
     longest: f64,
-    record: AdaptiveRecord,
+    record: PolynomialRecord,
     events: Vec<Event>,
     /// Switches since time went on.
     at_once: usize,
@@ -120,7 +110,7 @@ impl<'a, L: Law> Run<'a, L> {
             time: 0.0,
             h: first_step(problem),
             longest: longest_step(problem),
-            record: AdaptiveRecord::new(layout, pair.degree()),
+            record: PolynomialRecord::new(layout, pair.degree()),
             events: Vec::new(),
             at_once: 0,
             equations,
@@ -263,11 +253,4 @@ fn first_step<L: Law>(problem: &Problem<L>) -> f64 {
     let loads = problem.forcing.harmonics().iter().map(|h| h.omega);
     let fastest = loads.fold(problem.system.highest_frequency(), f64::max);
     (FIRST_TURN / fastest).min(problem.duration)
-}
-
-/// The longest step along which the motions of obstacles are polynomials, to rounding.
-fn longest_step<L: Law>(problem: &Problem<L>) -> f64 {
-    let harmonics = problem.forcing.harmonics().iter();
-    let moving = harmonics.filter(|harmonic| !harmonic.motions.is_empty());
-    LONGEST_TURN / moving.fold(0.0, |fastest, harmonic| f64::max(fastest, harmonic.omega))
 }

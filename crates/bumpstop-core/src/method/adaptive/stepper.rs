@@ -1,9 +1,8 @@
 //! One step of a pair: its stages, its end, and the polynomial across it.
 
-use super::dense::{self, Dense, add_weighted};
-use super::equations::Equations;
 use super::pair::Pair;
 use crate::law::Law;
+use crate::method::polynomial_steps::{Dense, Equations, write_cubic};
 
 /// The numbers at both ends of a step, and the stages between.
 #[derive(Debug)]
@@ -68,7 +67,13 @@ impl Stepper {
             equations.rates(time + c * h, &self.inner, stage);
         }
         let ends = [&*self.start, &*self.end];
-        dense::write(pair, h, &self.stages, ends, &mut self.rows);
+        let slopes = [&*self.stages[0], &*self.stages[self.last]];
+        write_cubic(h, ends, slopes, &mut self.rows);
+        for weights in pair.corrections {
+            let begun = self.rows.len();
+            self.rows.resize(begun + self.start.len(), 0.0);
+            add_weighted(&mut self.rows[begun..], h, weights, &self.stages);
+        }
     }
 
     /// The polynomial across the step.
@@ -92,5 +97,17 @@ impl Stepper {
             size: self.start.len(),
         };
         dense.at(theta, &mut self.start);
+    }
+}
+
+/// Adds `h sum_i w_i k_i`.
+pub(super) fn add_weighted(to: &mut [f64], h: f64, weights: &[f64], stages: &[Vec<f64>]) {
+    for (weight, stage) in weights.iter().zip(stages) {
+        if *weight != 0.0 {
+            let factor = h * weight;
+            for (to, k) in to.iter_mut().zip(stage) {
+                *to += factor * k;
+            }
+        }
     }
 }

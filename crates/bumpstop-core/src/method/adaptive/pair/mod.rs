@@ -23,7 +23,7 @@ pub(crate) struct Pair {
     pub errors: &'static [&'static [f64]],
     /// Stages that only the dense output needs.
     pub extra: &'static [(f64, &'static [f64])],
-    /// What the dense output adds to the cubic through both ends: see [`super::dense`].
+    /// What the dense output adds to the cubic through both ends: see [`crate::method::polynomial_steps`].
     pub corrections: &'static [&'static [f64]],
 }
 

@@ -6,14 +6,14 @@
 //! edition, 2002, chapters 4 to 6.
 
 /// The highest degree.
-pub(super) const MOST: usize = 10;
+pub(crate) const MOST: usize = 10;
 
 /// How often an interval is halved before its ends are taken to tell all: down to rounding.
 const HALVINGS: u32 = 52;
 
 /// `sum_i c_i (n over i) theta^i (1 - theta)^(n - i)`
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Bernstein {
+pub(crate) struct Bernstein {
     degree: usize,
     c: [f64; MOST + 1],
 }
@@ -25,14 +25,14 @@ fn binomial(n: usize, k: usize) -> f64 {
 
 impl Bernstein {
     /// The constant.
-    pub(super) fn constant(degree: usize, value: f64) -> Self {
+    pub(crate) fn constant(degree: usize, value: f64) -> Self {
         let mut c = [0.0; MOST + 1];
         c[..=degree].fill(value);
         Self { degree, c }
     }
 
     /// `theta^up (1 - theta)^down`, of a degree that may be higher than their sum.
-    pub(super) fn product(degree: usize, up: usize, down: usize) -> Self {
+    pub(crate) fn product(degree: usize, up: usize, down: usize) -> Self {
         let mut c = [0.0; MOST + 1];
         let from_up = c[up..=degree - down].iter_mut().enumerate();
         for (i, to) in from_up {
@@ -42,7 +42,7 @@ impl Bernstein {
     }
 
     /// `sum_j a_j theta^j`
-    pub(super) fn of_powers(powers: &[f64]) -> Self {
+    pub(crate) fn of_powers(powers: &[f64]) -> Self {
         let degree = powers.len() - 1;
         let mut sum = Self::constant(degree, 0.0);
         for (power, factor) in powers.iter().enumerate() {
@@ -56,19 +56,19 @@ impl Bernstein {
     }
 
     /// Adds a multiple of another one of the same degree.
-    pub(super) fn add(&mut self, factor: f64, other: &Self) {
+    pub(crate) fn add(&mut self, factor: f64, other: &Self) {
         debug_assert_eq!(self.degree, other.degree);
         for (c, other) in self.c.iter_mut().zip(&other.c) {
             *c += factor * other;
         }
     }
 
-    pub(super) fn degree(&self) -> usize {
+    pub(crate) fn degree(&self) -> usize {
         self.degree
     }
 
     /// Its derivative, as a polynomial of the same degree.
-    pub(super) fn derivative(&self) -> Self {
+    pub(crate) fn derivative(&self) -> Self {
         let n = self.degree as f64;
         let slope = |i: usize| n * (self.c[i + 1] - self.c[i]);
         let mut c = [0.0; MOST + 1];
@@ -86,12 +86,12 @@ impl Bernstein {
     }
 
     /// Its size at most.
-    pub(super) fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         (self.coefficients().iter()).fold(0.0, |size, c| size.max(c.abs()))
     }
 
     /// The same on both halves of the interval, by de Casteljau's averages.
-    pub(super) fn halves(&self) -> [Self; 2] {
+    pub(crate) fn halves(&self) -> [Self; 2] {
         let (mut left, mut right) = (*self, *self);
         for level in 1..=self.degree {
             for i in 0..=self.degree - level {
@@ -103,7 +103,7 @@ impl Bernstein {
     }
 
     /// Its value, by de Casteljau's averages, too: as accurate as its coefficients.
-    pub(super) fn at(&self, theta: f64) -> f64 {
+    pub(crate) fn at(&self, theta: f64) -> f64 {
         let mut c = self.c;
         for level in 1..=self.degree {
             for i in 0..=self.degree - level {
@@ -115,7 +115,7 @@ impl Bernstein {
 
     /// Where it first goes below `-rounding`: the zero that it passes there, or the end of the
     /// interval's halves up to which it is not below that.
-    pub(super) fn first_fall(&self, rounding: f64) -> Option<f64> {
+    pub(crate) fn first_fall(&self, rounding: f64) -> Option<f64> {
         debug_assert!(self.c.iter().all(|c| c.is_finite()));
         self.fall(rounding, 0.0, 1.0, HALVINGS)
     }

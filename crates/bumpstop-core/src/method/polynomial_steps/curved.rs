@@ -9,7 +9,7 @@ use crate::method::piecewise_linear::{Enclosure, Jet};
 const HALVINGS: u32 = 48;
 
 /// A curved guard of a law.
-pub(super) struct Curve<'a, L> {
+pub(crate) struct Curve<'a, L> {
     pub law: &'a L,
     pub state: State,
     pub guard: usize,
@@ -24,7 +24,7 @@ struct Bound {
 
 impl<L: Law> Curve<'_, L> {
     /// Where it first goes below zero by more than rounding, as a part of the step.
-    pub(super) fn first_fall(&self, track: &Track) -> Option<f64> {
+    pub(crate) fn first_fall(&self, track: &Track) -> Option<f64> {
         self.fall(track, 0.0, 1.0, HALVINGS)
     }
 

@@ -125,7 +125,7 @@ impl Layout {
 }
 
 /// The rates of all numbers.
-pub(super) struct Equations<'a, L> {
+pub(crate) struct Equations<'a, L> {
     pub problem: &'a Problem<L>,
     pub layout: Layout,
     pub loads: Loads<'a>,
@@ -137,7 +137,7 @@ pub(super) struct Equations<'a, L> {
 }
 
 impl<'a, L: Law> Equations<'a, L> {
-    pub(super) fn new(problem: &'a Problem<L>) -> Self {
+    pub(crate) fn new(problem: &'a Problem<L>) -> Self {
         Self {
             problem,
             layout: Layout::new(problem),
@@ -150,7 +150,7 @@ impl<'a, L: Law> Equations<'a, L> {
     }
 
     /// Turns to other states of the laws.
-    pub(super) fn take_states(&mut self, states: &[State]) {
+    pub(crate) fn take_states(&mut self, states: &[State]) {
         self.states.clear();
         self.states.extend_from_slice(states);
         let both = self.problem.laws.iter().zip(states);
@@ -178,7 +178,7 @@ impl<'a, L: Law> Equations<'a, L> {
     }
 
     /// The rates of the numbers at a time.
-    pub(super) fn rates(&mut self, time: f64, numbers: &[f64], to: &mut [f64]) {
+    pub(crate) fn rates(&mut self, time: f64, numbers: &[f64], to: &mut [f64]) {
         let layout = &self.layout;
         let modes = layout.modes;
         let [q, v] = layout.motion(numbers);

@@ -1,4 +1,4 @@
-//! What an adaptive run keeps: the polynomial of every step.
+//! What a run keeps: the polynomial of every step.
 
 use super::contact::ContactReader;
 use super::dense::Dense;
@@ -14,8 +14,8 @@ const LARGEST_RECORD: usize = 4 << 30;
 
 /// The steps of a run.
 #[derive(Debug, Clone)]
-pub struct AdaptiveRecord {
-    pub(super) layout: Layout,
+pub struct PolynomialRecord {
+    pub(crate) layout: Layout,
     degree: usize,
     list: Vec<Step>,
     rows: Vec<f64>,
@@ -25,7 +25,7 @@ pub struct AdaptiveRecord {
 
 /// A step, as far as it was gone.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Step {
+pub(crate) struct Step {
     pub start: f64,
     pub end: f64,
     /// The width of the polynomial, which may go on beyond the end.
@@ -34,8 +34,8 @@ pub(super) struct Step {
     states: usize,
 }
 
-impl AdaptiveRecord {
-    pub(super) fn new(layout: Layout, degree: usize) -> Self {
+impl PolynomialRecord {
+    pub(crate) fn new(layout: Layout, degree: usize) -> Self {
         Self {
             layout,
             degree,
@@ -49,7 +49,7 @@ impl AdaptiveRecord {
     ///
     /// # Errors
     /// [`Error::LongRecord`] where there is no more room.
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         start: f64,
         h: f64,
@@ -83,12 +83,12 @@ impl AdaptiveRecord {
         self.list.len()
     }
 
-    pub(super) fn list(&self) -> &[Step] {
+    pub(crate) fn list(&self) -> &[Step] {
         &self.list
     }
 
     /// All numbers and the laws' states in a step at a time.
-    pub(super) fn read(&self, step: usize, time: f64, moment: &mut Reading) {
+    pub(crate) fn read(&self, step: usize, time: f64, moment: &mut Reading) {
         let Step {
             start, h, states, ..
         } = self.list[step];
@@ -106,7 +106,7 @@ impl AdaptiveRecord {
     }
 
     /// Room for what is read at one instant.
-    pub(super) fn reading(&self) -> Reading {
+    pub(crate) fn reading(&self) -> Reading {
         Reading {
             numbers: vec![0.0; self.layout.size()],
             states: vec![State::FIRST; self.layout.memories.len()],
@@ -165,7 +165,7 @@ impl AdaptiveRecord {
 }
 
 /// All numbers and the laws' states at one instant.
-pub(super) struct Reading {
+pub(crate) struct Reading {
     pub numbers: Vec<f64>,
     pub states: Vec<State>,
 }

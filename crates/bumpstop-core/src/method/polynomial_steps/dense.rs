@@ -2,10 +2,9 @@
 //!
 //! In the part theta of a step gone by, `y = F_0 + theta (F_1 + (1 - theta) (F_2 + theta (F_3 +
 //! (1 - theta) (F_4 + ...))))`. F_0 is the start, F_1 to F_3 make the cubic that has the values and
-//! slopes of both ends, the others are the pair's corrections. This is the form of E. Hairer,
-//! S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993, section II.6.
-
-use super::pair::Pair;
+//! slopes of both ends, the others are corrections that some methods have. This is the form of
+//! E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993, section
+//! II.6.
 
 /// Coefficients of the numbers of a step: `degree + 1` rows, each of one entry a number.
 #[derive(Debug, Clone, Copy)]
@@ -48,37 +47,18 @@ fn factor(number: usize, theta: f64) -> f64 {
     if number % 2 == 1 { theta } else { 1.0 - theta }
 }
 
-/// Writes the coefficients of a step of width h from its stages and both its ends.
-pub(crate) fn write(
-    pair: &Pair,
+/// Writes the cubic of a step of width h from the values and the slopes at both its ends.
+pub(crate) fn write_cubic(
     h: f64,
-    stages: &[Vec<f64>],
     [start, end]: [&[f64]; 2],
+    [first, last]: [&[f64]; 2],
     to: &mut Vec<f64>,
 ) {
     to.clear();
     to.extend_from_slice(start);
-    let (first, last) = (&stages[0], &stages[pair.b.len()]);
     let across = start.iter().zip(end).map(|(a, b)| b - a);
     to.extend(across.clone());
     to.extend(across.clone().zip(first).map(|(d, f)| h * f - d));
     let slopes = first.iter().zip(last).map(|(f, g)| h * (f + g));
     to.extend(across.zip(slopes).map(|(d, s)| 2.0 * d - s));
-    for weights in pair.corrections {
-        let begun = to.len();
-        to.resize(begun + start.len(), 0.0);
-        add_weighted(&mut to[begun..], h, weights, stages);
-    }
-}
-
-/// Adds `h sum_i w_i k_i`.
-pub(crate) fn add_weighted(to: &mut [f64], h: f64, weights: &[f64], stages: &[Vec<f64>]) {
-    for (weight, stage) in weights.iter().zip(stages) {
-        if *weight != 0.0 {
-            let factor = h * weight;
-            for (to, k) in to.iter_mut().zip(stage) {
-                *to += factor * k;
-            }
-        }
-    }
 }

@@ -12,15 +12,15 @@ use crate::law::{Affine, COORDINATES, Law, Local, State};
 use crate::problem::Problem;
 
 /// A guard counts as zero down to this many times the rounding of what it is made of.
-pub(super) const ROUNDINGS: f64 = 16.0;
+pub(crate) const ROUNDINGS: f64 = 16.0;
 
 /// The largest angle by which a harmonic motion of an obstacle may turn in a step: its Taylor
 /// polynomial of the highest degree then tells it to 3e-17 of its amplitude.
-pub(super) const LONGEST_TURN: f64 = 0.15;
+const LONGEST_TURN: f64 = 0.15;
 
 /// A switch within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Crossing {
+pub(crate) struct Crossing {
     pub law: usize,
     pub guard: usize,
     /// The part of the step that goes before it.
@@ -31,7 +31,7 @@ pub(super) struct Crossing {
 
 /// A step as the guards see it.
 #[derive(Clone, Copy)]
-pub(super) struct Step<'a> {
+pub(crate) struct Step<'a> {
     pub time: f64,
     pub h: f64,
     pub dense: Dense<'a>,
@@ -39,7 +39,7 @@ pub(super) struct Step<'a> {
 
 /// The polynomials that the dense output is made of, and the laws whose obstacles move.
 #[derive(Debug)]
-pub(super) struct Watch {
+pub(crate) struct Watch {
     /// For each degree that is needed: that of the dense output, and the highest.
     bases: [Vec<Bernstein>; 2],
     moves: Vec<bool>,
@@ -47,7 +47,7 @@ pub(super) struct Watch {
 
 /// The local motion of a law along a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Track {
+pub(crate) struct Track {
     pub position: [Bernstein; COORDINATES],
     pub velocity: [Bernstein; COORDINATES],
     /// Sizes of what both were summed of.
@@ -56,7 +56,7 @@ pub(super) struct Track {
 }
 
 impl Watch {
-    pub(super) fn new<L: Law>(problem: &Problem<L>, degree: usize) -> Self {
+    pub(crate) fn new<L: Law>(problem: &Problem<L>, degree: usize) -> Self {
         let basis = |highest: usize| {
             (0..=degree)
                 .map(|k| Bernstein::product(highest, k.div_ceil(2), k / 2))
@@ -73,7 +73,7 @@ impl Watch {
     }
 
     /// The first switch of a law in a step, if there is one.
-    pub(super) fn first<L: Law>(
+    pub(crate) fn first<L: Law>(
         &self,
         problem: &Problem<L>,
         states: &[State],
@@ -195,7 +195,7 @@ impl Track {
     }
 
     /// The same on both halves of the step.
-    pub(super) fn halves(&self) -> [Self; 2] {
+    pub(crate) fn halves(&self) -> [Self; 2] {
         let (mut left, mut right) = (*self, *self);
         for c in 0..COORDINATES {
             [left.position[c], right.position[c]] = self.position[c].halves();
@@ -206,7 +206,14 @@ impl Track {
     }
 
     /// Its length in s.
-    pub(super) fn width(&self) -> f64 {
+    pub(crate) fn width(&self) -> f64 {
         self.h
     }
+}
+
+/// The longest step along which the motions of obstacles are polynomials, to rounding.
+pub(crate) fn longest_step<L: Law>(problem: &Problem<L>) -> f64 {
+    let harmonics = problem.forcing.harmonics().iter();
+    let moving = harmonics.filter(|harmonic| !harmonic.motions.is_empty());
+    LONGEST_TURN / moving.fold(0.0, |fastest, harmonic| f64::max(fastest, harmonic.omega))
 }

@@ -7,7 +7,7 @@ use crate::forcing::{Forcing, Onset};
 
 /// The loads of one stretch of time.
 #[derive(Debug)]
-pub(super) struct Loads<'a> {
+pub(crate) struct Loads<'a> {
     forcing: &'a Forcing,
     /// Where the stretch begins, in s.
     start: f64,
@@ -16,7 +16,7 @@ pub(super) struct Loads<'a> {
 }
 
 impl<'a> Loads<'a> {
-    pub(super) fn new(forcing: &'a Forcing) -> Self {
+    pub(crate) fn new(forcing: &'a Forcing) -> Self {
         Self {
             forcing,
             start: 0.0,
@@ -26,18 +26,18 @@ impl<'a> Loads<'a> {
     }
 
     /// Turns to the stretch from a time on; returns where it ends.
-    pub(super) fn turn(&mut self, time: f64) -> f64 {
+    pub(crate) fn turn(&mut self, time: f64) -> f64 {
         self.start = time;
         self.forcing.onset(time, &mut self.places, &mut self.onset);
         self.forcing.next_knot(&self.places)
     }
 
-    pub(super) fn vary(&self) -> bool {
+    pub(crate) fn vary(&self) -> bool {
         self.forcing.varies()
     }
 
     /// The forces that change, one a mode.
-    pub(super) fn changing(&self, time: f64, to: &mut [f64]) {
+    pub(crate) fn changing(&self, time: f64, to: &mut [f64]) {
         to.fill(0.0);
         let channels = self.forcing.channels().iter().enumerate();
         for (number, channel) in channels.filter(|(_, channel)| channel.moves.is_none()) {
@@ -55,7 +55,7 @@ impl<'a> Loads<'a> {
     }
 
     /// How far the obstacle of a law has moved, and how fast it moves.
-    pub(super) fn motion(&self, law: usize, time: f64) -> [f64; 2] {
+    pub(crate) fn motion(&self, law: usize, time: f64) -> [f64; 2] {
         let mut motion = [0.0; 2];
         for (number, channel) in self.forcing.channels().iter().enumerate() {
             if channel.moves == Some(law) {
@@ -76,7 +76,7 @@ impl<'a> Loads<'a> {
 
     /// The derivatives over their factorials, times powers of h, of an obstacle's motion at a
     /// time: its Taylor coefficients in parts of a step.
-    pub(super) fn series(&self, law: usize, time: f64, h: f64, to: &mut [f64]) {
+    pub(crate) fn series(&self, law: usize, time: f64, h: f64, to: &mut [f64]) {
         to.fill(0.0);
         let since = time - self.start;
         for (number, channel) in self.forcing.channels().iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Reading the impacts of one law along the steps.
 
-use super::record::{AdaptiveRecord, Reading, Step};
+use super::record::{PolynomialRecord, Reading, Step};
 use crate::dynamics::Moment;
 use crate::impacts::Impact;
 use crate::law::{Law, Local, project};
@@ -12,15 +12,15 @@ use crate::problem::Problem;
 const PARTS: usize = 4;
 
 /// Reads the contact of one law.
-pub(super) struct ContactReader<'a, L> {
-    record: &'a AdaptiveRecord,
+pub(crate) struct ContactReader<'a, L> {
+    record: &'a PolynomialRecord,
     problem: &'a Problem<L>,
     law: usize,
     reading: Reading,
 }
 
 impl<'a, L: Law> ContactReader<'a, L> {
-    pub(super) fn new(record: &'a AdaptiveRecord, problem: &'a Problem<L>, law: usize) -> Self {
+    pub(crate) fn new(record: &'a PolynomialRecord, problem: &'a Problem<L>, law: usize) -> Self {
         Self {
             record,
             problem,
@@ -29,7 +29,7 @@ impl<'a, L: Law> ContactReader<'a, L> {
         }
     }
 
-    pub(super) fn impacts(&mut self) -> Vec<Impact> {
+    pub(crate) fn impacts(&mut self) -> Vec<Impact> {
         let mut impacts = Vec::new();
         let mut current: Option<Impact> = None;
         for (number, step) in self.record.list().iter().enumerate() {
