@@ -185,6 +185,41 @@ pub enum Error {
         /// Memory that the run would need.
         gibibytes: f64,
     },
+    /// A parameter of a scheme is out of its range.
+    #[error("{what} must be from {low:.4} to {high:.4} (got {value})")]
+    Parameter {
+        /// Its name.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The least that it may be.
+        low: f64,
+        /// The most.
+        high: f64,
+    },
+    /// The matrix that a step solves with has no inverse.
+    #[error("the equations of a step cannot be solved: take another step")]
+    SingularStep,
+    /// A scheme for equations of motion was given a law with equations of its own.
+    #[error(
+        "the {method} method does not take laws whose memory follows rate equations, such as law {law} (counted from 0); the adaptive methods do"
+    )]
+    FlowingMemory {
+        /// The method.
+        method: &'static str,
+        /// The law.
+        law: usize,
+    },
+    /// No force of a law was found that agrees with the motion at the end of a step.
+    #[error(
+        "no force of law {law} (counted from 0) agrees with the motion at t = {time:e} s; take a smaller step"
+    )]
+    NoContactForce {
+        /// Instant, in s.
+        time: f64,
+        /// The law.
+        law: usize,
+    },
     /// A relative tolerance out of its range.
     #[error("the relative tolerance must be from {finest:e} to below 1 (got {value})")]
     Tolerance {
@@ -203,9 +238,9 @@ pub enum Error {
         /// The step, in s.
         step: f64,
     },
-    /// The steps of an adaptive run do not fit in memory.
+    /// The steps of a run do not fit in memory.
     #[error(
-        "the steps up to t = {time:e} s fill the 4 GiB that a run may take; take a larger tolerance or a shorter run"
+        "the steps up to t = {time:e} s fill the 4 GiB that a run may take; take a larger tolerance or step, or a shorter run"
     )]
     LongRecord {
         /// Instant reached, in s.
@@ -274,6 +309,25 @@ pub enum Error {
         /// Instant reached, in s.
         time: f64,
     },
+}
+
+impl Error {
+    /// Refuses a parameter of a scheme that is out of its range.
+    pub(crate) fn check_parameter(
+        what: &'static str,
+        value: f64,
+        [low, high]: [f64; 2],
+    ) -> Result<()> {
+        if (low..=high).contains(&value) {
+            return Ok(());
+        }
+        Err(Self::Parameter {
+            what,
+            value,
+            low,
+            high,
+        })
+    }
 }
 
 /// Result with the core's error.

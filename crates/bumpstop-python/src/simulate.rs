@@ -6,21 +6,29 @@ use crate::parts::{Forcing, LawPart, System, values};
 use bumpstop_core::error::Error;
 use bumpstop_core::method::adaptive::{PairName, Tolerances};
 use bumpstop_core::method::fixed_step::Step;
+use bumpstop_core::method::one_step::{
+    GeneralizedAlpha, Hht, Newmark, SchemeName, devogelaere, exponential, generalized_alpha, hht,
+    newmark, trbdf2,
+};
 use bumpstop_core::method::{self, Method, central_difference, symplectic_euler};
 use bumpstop_core::problem::Problem;
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How often progress is told and interrupts are looked for.
 const BETWEEN_REPORTS: Duration = Duration::from_millis(100);
 
+/// Parameters of a scheme, by name.
+type Parameters = HashMap<String, f64>;
+
 /// Integrates a problem; releases the GIL.
 #[pyfunction]
 #[pyo3(signature = (system, laws, forcing, displacement, velocity, duration, method, dt=None,
-                    beyond_stability_limit=false, tolerances=None, progress=None))]
+                    beyond_stability_limit=false, tolerances=None, parameters=None, progress=None))]
 #[allow(clippy::too_many_arguments)] // mirrors the Python signature
 pub fn simulate(
     py: Python<'_>,
@@ -34,9 +42,11 @@ pub fn simulate(
     dt: Option<f64>,
     beyond_stability_limit: bool,
     tolerances: Option<(f64, Option<f64>)>,
+    parameters: Option<Parameters>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<History> {
-    let method = method_named(method, dt, beyond_stability_limit, tolerances)?;
+    let parameters = parameters.unwrap_or_default();
+    let method = method_named(method, dt, beyond_stability_limit, tolerances, &parameters)?;
     let problem = Problem::new(
         system.0.clone(),
         laws.iter().map(LawPart::law).collect(),
@@ -60,10 +70,21 @@ pub fn simulate(
     }
 }
 
-/// Largest stable step of a fixed-step method, in s.
+/// Largest stable step of a fixed-step method, in s; infinite where every step is stable.
 #[pyfunction]
-pub fn stability_limit(system: &System, laws: Vec<LawPart<'_>>, method: &str) -> PyResult<f64> {
+#[pyo3(signature = (system, laws, method, parameters=None))]
+#[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+pub fn stability_limit(
+    system: &System,
+    laws: Vec<LawPart<'_>>,
+    method: &str,
+    parameters: Option<Parameters>,
+) -> PyResult<f64> {
     let laws: Vec<_> = laws.iter().map(LawPart::law).collect();
+    if let Some(scheme) = scheme_named(method, &parameters.unwrap_or_default()) {
+        scheme.check().map_err(core_error)?;
+        return Ok(scheme.stability_limit(&system.0, &laws));
+    }
     match method {
         symplectic_euler::NAME => Ok(symplectic_euler::stability_limit(&system.0, &laws)),
         central_difference::NAME => Ok(central_difference::stability_limit(&system.0, &laws)),
@@ -73,11 +94,40 @@ pub fn stability_limit(system: &System, laws: Vec<LawPart<'_>>, method: &str) ->
     }
 }
 
+/// The classical scheme of a name, with its usual parameters where none are given.
+fn scheme_named(name: &str, parameters: &Parameters) -> Option<SchemeName> {
+    let given = |name: &str, usual: f64| parameters.get(name).copied().unwrap_or(usual);
+    let scheme = match name {
+        newmark::NAME => {
+            let usual = Newmark::default();
+            SchemeName::Newmark(Newmark {
+                beta: given("beta", usual.beta),
+                gamma: given("gamma", usual.gamma),
+            })
+        }
+        hht::NAME => SchemeName::Hht(Hht {
+            alpha: given("alpha", Hht::default().alpha),
+        }),
+        generalized_alpha::NAME => {
+            let usual = GeneralizedAlpha::default().spectral_radius;
+            SchemeName::GeneralizedAlpha(GeneralizedAlpha {
+                spectral_radius: given("spectral_radius", usual),
+            })
+        }
+        trbdf2::NAME => SchemeName::TrBdf2,
+        devogelaere::NAME => SchemeName::DeVogelaere,
+        exponential::NAME => SchemeName::Exponential,
+        _ => return None,
+    };
+    Some(scheme)
+}
+
 fn method_named(
     name: &str,
     dt: Option<f64>,
     beyond_stability_limit: bool,
     tolerances: Option<(f64, Option<f64>)>,
+    parameters: &Parameters,
 ) -> PyResult<Method> {
     let step = || {
         dt.map(|dt| Step {
@@ -91,6 +141,9 @@ fn method_named(
         let (relative, absolute) = tolerances
             .ok_or_else(|| PyValueError::new_err(format!("method '{name}' needs tolerances")))?;
         return Ok(Method::Adaptive(pair, Tolerances { relative, absolute }));
+    }
+    if let Some(scheme) = scheme_named(name, parameters) {
+        return Ok(Method::OneStep(scheme, step()?));
     }
     match name {
         "exact" => Ok(Method::Exact),

@@ -4,6 +4,7 @@ pub mod adaptive;
 pub mod central_difference;
 pub mod fixed_step;
 pub(crate) mod instant;
+pub mod one_step;
 pub mod piecewise_linear;
 pub mod polynomial_steps;
 pub mod symplectic_euler;
@@ -23,6 +24,8 @@ pub enum Method {
     SymplecticEuler(fixed_step::Step),
     /// Central difference, second order.
     CentralDifference(fixed_step::Step),
+    /// A classical scheme of one step.
+    OneStep(one_step::SchemeName, fixed_step::Step),
     /// A Runge-Kutta pair with step control and located switches.
     Adaptive(adaptive::PairName, adaptive::Tolerances),
 }
@@ -34,6 +37,7 @@ impl Method {
             Self::Exact => "exact",
             Self::SymplecticEuler(_) => "symplectic_euler",
             Self::CentralDifference(_) => "central_difference",
+            Self::OneStep(scheme, _) => scheme.name(),
             Self::Adaptive(pair, _) => pair.name(),
         }
     }
@@ -55,6 +59,7 @@ pub fn simulate<L: Law>(
         Method::Exact => piecewise_linear::simulate(problem, observer),
         Method::SymplecticEuler(step) => symplectic_euler::simulate(problem, step, observer),
         Method::CentralDifference(step) => central_difference::simulate(problem, step, observer),
+        Method::OneStep(scheme, step) => one_step::simulate(problem, scheme, step, observer),
         Method::Adaptive(pair, tolerances) => {
             adaptive::simulate(problem, pair, tolerances, observer)
         }

@@ -184,6 +184,7 @@ impl<'a, L: Law> Run<'a, L> {
             _ => self.time + theta * h,
         };
         if after > self.time {
+            self.record.count_step();
             self.record.add(self.time, h, after, dense, &self.states)?;
             self.at_once = 0;
         }

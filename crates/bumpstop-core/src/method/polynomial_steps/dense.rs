@@ -62,3 +62,39 @@ pub(crate) fn write_cubic(
     let slopes = first.iter().zip(last).map(|(f, g)| h * (f + g));
     to.extend(across.zip(slopes).map(|(d, s)| 2.0 * d - s));
 }
+
+/// The rates of a cubic of width h in the part theta of it, as far as there is room for them.
+pub(crate) fn cubic_rates(cubic: Dense<'_>, theta: f64, h: f64, to: &mut [f64]) {
+    let [first, second, third] = [1, 2, 3].map(|number| cubic.row(number));
+    let (of_second, of_third) = (1.0 - 2.0 * theta, theta * (2.0 - 3.0 * theta));
+    for (i, to) in to.iter_mut().enumerate() {
+        *to = (first[i] + of_second * second[i] + of_third * third[i]) / h;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_has_the_values_and_rates_it_was_made_of() {
+        let cubic = |t: f64| 2.0 - t + 3.0 * t * t - 0.5 * t.powi(3);
+        let rate = |t: f64| -1.0 + 6.0 * t - 1.5 * t * t;
+        let (from, h) = (0.3, 1.7);
+        let mut rows = Vec::new();
+        let ends = [[cubic(from)], [cubic(from + h)]];
+        let rates = [[rate(from)], [rate(from + h)]];
+        write_cubic(h, [&ends[0], &ends[1]], [&rates[0], &rates[1]], &mut rows);
+        let dense = Dense {
+            rows: &rows,
+            size: 1,
+        };
+        for theta in [0.0, 0.2, 0.7, 1.0] {
+            let (mut value, mut slope) = ([0.0], [0.0]);
+            dense.at(theta, &mut value);
+            cubic_rates(dense, theta, h, &mut slope);
+            assert!((value[0] - cubic(from + theta * h)).abs() < 1e-13);
+            assert!((slope[0] - rate(from + theta * h)).abs() < 1e-13);
+        }
+    }
+}

@@ -17,6 +17,6 @@ mod watch;
 
 pub use record::PolynomialRecord;
 
-pub(crate) use dense::{Dense, write_cubic};
+pub(crate) use dense::{Dense, cubic_rates, write_cubic};
 pub(crate) use equations::{Equations, Layout};
 pub(crate) use watch::{Crossing, Step, Watch, longest_step};

@@ -17,6 +17,8 @@ const LARGEST_RECORD: usize = 4 << 30;
 pub struct PolynomialRecord {
     pub(crate) layout: Layout,
     degree: usize,
+    /// Steps, some of them in parts that were kept one by one.
+    steps: usize,
     list: Vec<Step>,
     rows: Vec<f64>,
     /// States of all laws; steps between two switches share them.
@@ -39,13 +41,35 @@ impl PolynomialRecord {
         Self {
             layout,
             degree,
+            steps: 0,
             list: Vec::new(),
             rows: Vec::new(),
             states: Vec::new(),
         }
     }
 
-    /// Keeps a step of width h up to a time.
+    /// Refuses to make room for more steps than memory holds.
+    ///
+    /// # Errors
+    /// [`Error::TooManySteps`]
+    pub(crate) fn check_room(layout: &Layout, degree: usize, steps: f64) -> Result<()> {
+        let bytes = steps * ((degree + 1) * layout.size() * size_of::<f64>()) as f64;
+        if bytes > LARGEST_RECORD as f64 {
+            return Err(Error::TooManySteps {
+                steps: steps as usize,
+                modes: layout.modes,
+                gibibytes: bytes / (1u64 << 30) as f64,
+            });
+        }
+        Ok(())
+    }
+
+    /// Counts a step.
+    pub(crate) fn count_step(&mut self) {
+        self.steps += 1;
+    }
+
+    /// Keeps a step, or a part of one, of width h up to a time.
     ///
     /// # Errors
     /// [`Error::LongRecord`] where there is no more room.
@@ -80,7 +104,7 @@ impl PolynomialRecord {
 
     /// How many steps there are.
     pub fn steps(&self) -> usize {
-        self.list.len()
+        self.steps
     }
 
     pub(crate) fn list(&self) -> &[Step] {

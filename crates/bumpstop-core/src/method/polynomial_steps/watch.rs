@@ -83,27 +83,45 @@ impl Watch {
     ) -> Option<Crossing> {
         let mut first: Option<Crossing> = None;
         for (index, law) in problem.laws.iter().enumerate() {
-            let state = states[index];
-            let guards = law.guard_count(state);
-            if guards == 0 {
-                continue;
+            let found = self.fall((law, index), states[index], layout, loads, step);
+            if let Some(crossing) = found
+                && first.is_none_or(|first| crossing.theta < first.theta)
+            {
+                first = Some(crossing);
             }
-            let track = self.track(law, index, layout, loads, step);
-            for guard in 0..guards {
-                let theta = if law.is_curved(state, guard) {
-                    Curve { law, state, guard }.first_fall(&track)
-                } else {
-                    let function = law.guard(state, guard).function;
-                    track.guard(&function).first_fall(track.rounding(&function))
-                };
-                if let Some(theta) = theta.filter(|t| first.is_none_or(|f| *t < f.theta)) {
-                    first = Some(Crossing {
-                        law: index,
-                        guard,
-                        theta,
-                        acceleration: track.acceleration(theta),
-                    });
-                }
+        }
+        first
+    }
+
+    /// Where a guard of one law in a state first falls below zero, if one does.
+    pub(crate) fn fall<L: Law>(
+        &self,
+        (law, index): (&L, usize),
+        state: State,
+        layout: &Layout,
+        loads: &Loads<'_>,
+        step: Step<'_>,
+    ) -> Option<Crossing> {
+        let guards = law.guard_count(state);
+        if guards == 0 {
+            return None;
+        }
+        let track = self.track(law, index, layout, loads, step);
+        let mut first: Option<Crossing> = None;
+        for guard in 0..guards {
+            let theta = if law.is_curved(state, guard) {
+                Curve { law, state, guard }.first_fall(&track)
+            } else {
+                let function = law.guard(state, guard).function;
+                track.guard(&function).first_fall(track.rounding(&function))
+            };
+            if let Some(theta) = theta.filter(|t| first.is_none_or(|f| *t < f.theta)) {
+                first = Some(Crossing {
+                    law: index,
+                    guard,
+                    theta,
+                    acceleration: track.acceleration(theta),
+                });
             }
         }
         first

@@ -1,0 +1,298 @@
+//! What a run of fixed steps leaves: a cubic for each step, cut where laws switch.
+//!
+//! A scheme knows its motion at the ends of steps alone. Between them it is the cubic that has the
+//! values and rates of both ends, on which the guard of a law that has switched is looked for; the
+//! step is cut there, and at knots of loads, into parts of one state each. The works of the energy
+//! ledger are integrated over each part by Simpson's rule.
+
+use super::Motion;
+use super::laws::Laws;
+use crate::error::{Error, Result};
+use crate::history::Event;
+use crate::law::{Law, State};
+use crate::method::polynomial_steps::{
+    Crossing, Dense, Equations, Layout, PolynomialRecord, Step, Watch, cubic_rates, write_cubic,
+};
+use crate::problem::Problem;
+
+/// Degree of the polynomials.
+const DEGREE: usize = 3;
+
+/// Of the step, by which its number may exceed a whole one: rounding of a duration.
+const ROUNDING: f64 = 1e-9;
+
+/// The trace of a run.
+pub(super) struct Trace<'a, L> {
+    problem: &'a Problem<L>,
+    h: f64,
+    steps: usize,
+    equations: Equations<'a, L>,
+    watch: Watch,
+    record: PolynomialRecord,
+    events: Vec<Event>,
+    /// States at the start of the next step.
+    states: Vec<State>,
+    /// Numbers and rates at both ends of the step.
+    ends: [Vec<f64>; 2],
+    rates: [Vec<f64>; 2],
+    /// The cubic of the step, and what a part of it is made of.
+    rows: Vec<f64>,
+    part: Part,
+    cuts: Vec<Cut>,
+    /// The works of the energy ledger so far.
+    works: Vec<f64>,
+}
+
+/// Numbers and rates at both ends of a part and in its middle, and its cubic.
+#[derive(Debug)]
+struct Part {
+    numbers: [Vec<f64>; 3],
+    rates: [Vec<f64>; 3],
+    rows: Vec<f64>,
+}
+
+/// Where a step is cut.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    theta: f64,
+    /// The law that switches, if one does, and the guard's name.
+    switch: Option<(usize, &'static str)>,
+}
+
+impl<'a, L: Law> Trace<'a, L> {
+    /// An empty one, for steps of width h.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`], [`Error::NotFinite`] or [`Error::TooManySteps`].
+    pub(super) fn new(problem: &'a Problem<L>, h: f64) -> Result<Self> {
+        crate::error::check_finite("dt", &[h])?;
+        if h <= 0.0 {
+            return Err(Error::NotPositive {
+                what: "dt",
+                value: h,
+            });
+        }
+        let equations = Equations::new(problem);
+        let layout = equations.layout.clone();
+        let count = (problem.duration / h - ROUNDING).ceil().max(1.0);
+        PolynomialRecord::check_room(&layout, DEGREE, count)?;
+        let zeros = || vec![0.0; layout.size()];
+        Ok(Self {
+            problem,
+            h,
+            steps: count as usize,
+            equations,
+            watch: Watch::new(problem, DEGREE),
+            events: Vec::new(),
+            states: Vec::new(),
+            ends: [zeros(), zeros()],
+            rates: [zeros(), zeros()],
+            rows: Vec::new(),
+            part: Part {
+                numbers: [zeros(), zeros(), zeros()],
+                rates: [zeros(), zeros(), zeros()],
+                rows: Vec::new(),
+            },
+            cuts: Vec::new(),
+            works: vec![0.0; layout.size() - layout.works],
+            record: PolynomialRecord::new(layout, DEGREE),
+        })
+    }
+
+    pub(super) fn problem(&self) -> &'a Problem<L> {
+        self.problem
+    }
+
+    pub(super) fn steps(&self) -> usize {
+        self.steps
+    }
+
+    pub(super) fn h(&self) -> f64 {
+        self.h
+    }
+
+    pub(super) fn done(self) -> (PolynomialRecord, Vec<Event>) {
+        (self.record, self.events)
+    }
+
+    /// The motion at t = 0, in equilibrium.
+    pub(super) fn begin(&mut self, laws: &Laws<'_, L>) -> Motion {
+        let Problem {
+            displacement,
+            velocity,
+            ..
+        } = self.problem;
+        let modes = displacement.len();
+        self.states.clone_from(&laws.states);
+        self.ends[1][..modes].copy_from_slice(displacement);
+        self.ends[1][modes..2 * modes].copy_from_slice(velocity);
+        self.equations.loads.turn(0.0);
+        self.equations.take_states(&self.states);
+        (self.equations).rates(0.0, &self.ends[1], &mut self.rates[1]);
+        Motion {
+            q: displacement.clone(),
+            v: velocity.clone(),
+            a: self.rates[1][modes..2 * modes].to_vec(),
+        }
+    }
+
+    /// Keeps a step.
+    ///
+    /// # Errors
+    /// [`Error::LongRecord`]
+    pub(super) fn add(
+        &mut self,
+        span: [f64; 2],
+        motion: &Motion,
+        laws: &Laws<'_, L>,
+    ) -> Result<()> {
+        let modes = motion.q.len();
+        self.ends.swap(0, 1);
+        self.ends[1][..modes].copy_from_slice(&motion.q);
+        self.ends[1][modes..2 * modes].copy_from_slice(&motion.v);
+        self.cuts.clear();
+        self.follow(span, &laws.states);
+        self.find_switches(span, &laws.states);
+        (self.cuts).sort_by(|a, b| a.theta.total_cmp(&b.theta));
+        self.cuts.push(Cut {
+            theta: 1.0,
+            switch: None,
+        });
+        self.record.count_step();
+        let mut from = 0.0;
+        for number in 0..self.cuts.len() {
+            let Cut { theta, switch } = self.cuts[number];
+            self.keep([from, theta], span)?;
+            from = theta;
+            if let Some((law, guard)) = switch {
+                self.switch(law, guard, self.instant(theta, span), laws.states[law]);
+            }
+        }
+        // Memories go on, too, where states do not switch.
+        self.states.copy_from_slice(&laws.states);
+        Ok(())
+    }
+
+    /// Makes the cubic of the step, and cuts it at the knots of loads.
+    fn follow(&mut self, [start, end]: [f64; 2], after: &[State]) {
+        let Self {
+            equations,
+            ends,
+            rates,
+            ..
+        } = self;
+        equations.take_states(&self.states);
+        let mut knot = equations.loads.turn(start);
+        equations.rates(start, &ends[0], &mut rates[0]);
+        while knot < end {
+            self.cuts.push(Cut {
+                theta: (knot - start) / self.h,
+                switch: None,
+            });
+            knot = equations.loads.turn(knot);
+        }
+        equations.take_states(after);
+        equations.rates(end, &ends[1], &mut rates[1]);
+        let [from, to] = &*ends;
+        let [first, last] = &*rates;
+        write_cubic(self.h, [from, to], [first, last], &mut self.rows);
+        equations.loads.turn(start);
+    }
+
+    /// Cuts the step where laws switch that have other states at its end.
+    fn find_switches(&mut self, [start, _]: [f64; 2], after: &[State]) {
+        let size = self.ends[0].len();
+        let step = Step {
+            time: start,
+            h: self.h,
+            dense: Dense {
+                rows: &self.rows,
+                size,
+            },
+        };
+        let Equations { layout, loads, .. } = &self.equations;
+        for (index, (before, after)) in self.states.iter().zip(after).enumerate() {
+            if before.number == after.number {
+                continue;
+            }
+            let law = &self.problem.laws[index];
+            let found = (self.watch).fall((law, index), *before, layout, loads, step);
+            let name = |crossing: Crossing| law.guard(*before, crossing.guard).name;
+            self.cuts.push(Cut {
+                theta: found.map_or(1.0, |crossing| crossing.theta),
+                switch: Some((index, found.map_or("step", name))),
+            });
+        }
+    }
+
+    /// The time in a part of the step, within the run.
+    fn instant(&self, theta: f64, [start, end]: [f64; 2]) -> f64 {
+        let duration = self.problem.duration;
+        if theta < 1.0 {
+            (start + theta * self.h).min(duration)
+        } else if end > duration - ROUNDING * self.h {
+            duration
+        } else {
+            end
+        }
+    }
+
+    /// Keeps a part of the step, with the works in it.
+    fn keep(&mut self, [from, to]: [f64; 2], span: [f64; 2]) -> Result<()> {
+        let times = [from, to].map(|theta| self.instant(theta, span));
+        if times[1] <= times[0] {
+            return Ok(());
+        }
+        let Layout { works, .. } = self.equations.layout;
+        let h = (to - from) * self.h;
+        self.equations.take_states(&self.states);
+        self.equations.loads.turn(times[0]);
+        let dense = Dense {
+            rows: &self.rows,
+            size: self.ends[0].len(),
+        };
+        let Part {
+            numbers,
+            rates,
+            rows,
+        } = &mut self.part;
+        let thetas = [from, to, 0.5 * (from + to)];
+        for ((numbers, rates), theta) in numbers.iter_mut().zip(&mut *rates).zip(thetas) {
+            dense.at(theta, &mut numbers[..works]);
+            let time = span[0] + theta * self.h;
+            self.equations.rates(time, numbers, rates);
+            cubic_rates(dense, theta, self.h, &mut rates[..works]);
+        }
+        for work in works..numbers[0].len() {
+            numbers[0][work] = self.works[work - works];
+            let mean = (rates[0][work] + 4.0 * rates[2][work] + rates[1][work]) / 6.0;
+            numbers[1][work] = numbers[0][work] + h * mean;
+        }
+        self.works.copy_from_slice(&numbers[1][works..]);
+        let [start, end, _] = &*numbers;
+        let [first, last, _] = &*rates;
+        write_cubic(h, [start, end], [first, last], rows);
+        let part = Dense { rows, ..dense };
+        (self.record).add(times[0], h, times[1], part, &self.states)
+    }
+
+    /// Switches a law at a time, where the part before ends.
+    fn switch(&mut self, law: usize, guard: &'static str, time: f64, after: State) {
+        let layout = &self.equations.layout;
+        let before = std::mem::replace(&mut self.states[law], after);
+        if time >= self.problem.duration {
+            return;
+        }
+        let [q, v] = layout.motion(&self.part.numbers[1]);
+        let [position, _] = self.problem.local(law, time, q, v);
+        let lost = self.problem.laws[law].switch_loss(before, after, &position);
+        self.works[layout.dissipated(law) - layout.works] += lost;
+        self.events.push(Event {
+            time,
+            law,
+            guard,
+            before,
+            after,
+        });
+    }
+}
