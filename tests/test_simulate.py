@@ -77,6 +77,21 @@ def test_fixed_steps_approach_the_exact_solution(method: str) -> None:
         ({"method": "central_difference", "dt": 0.6}, "dt", "must not exceed the duration"),
         ({"method": "central_difference", "dt": 1e-9}, "dt", "e.08 steps, more than the 6.7e.07"),
         ({"method": "central_difference", "dt": 0.1}, "dt", "above the stability limit"),
+        ({"method": "newmark"}, "dt", "needs a step in s; every step is stable"),
+        (
+            {"method": "devogelaere", "dt": 0.1},
+            "dt",
+            "above the stability limit of 0.0240137 s",
+        ),
+        ({"method": "newmark", "dt": 1e-3, "beta": -1}, "beta", "must be from 0 to 1"),
+        ({"method": "newmark", "dt": 1e-3, "gamma": 0.4}, "gamma", "must be from 0.5 to 1"),
+        ({"method": "hht", "dt": 1e-3, "alpha": 0.1}, "alpha", "must be from -0.333333 to 0"),
+        ({"method": "hht", "dt": 1e-3, "beta": 0.3}, "beta", "beta is for newmark"),
+        (
+            {"method": "generalized_alpha", "dt": 1e-3, "spectral_radius": 1.1},
+            "spectral_radius",
+            "must be from 0 to 1",
+        ),
     ],
 )
 def test_refuses(options: dict[str, Any], key: str, what: str) -> None:
@@ -93,6 +108,9 @@ def test_steps_that_memory_cannot_hold_are_refused_before_the_core_does(modes: i
     most = 4 * 2**30 // (64 * math.ceil(modes / 8))
     with pytest.raises(bs.InputError, match=r"dt: makes .* that memory holds .*; take at least"):
         bs.simulate(long, method="central_difference", dt=1e4 / (most + 10))
+    most = 4 * 2**30 // (32 * (2 * modes + 4))
+    with pytest.raises(bs.InputError, match=r"dt: makes .* that memory holds .*; take at least"):
+        bs.simulate(long, method="newmark", dt=1e4 / (most + 10))
 
 
 def test_energies_beyond_all_numbers_are_refused() -> None:

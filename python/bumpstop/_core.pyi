@@ -1,6 +1,6 @@
 """What the compiled core offers to Python. Arrays are float64 and C-contiguous."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -235,14 +235,21 @@ def simulate(
     dt: float | None = None,
     beyond_stability_limit: bool = False,
     tolerances: tuple[float, float | None] | None = None,
+    parameters: Mapping[str, float] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> History:
     """Integrate; releases the GIL.
 
-    ``method`` is ``exact``, ``symplectic_euler`` or ``central_difference``, which need ``dt``, or
-    ``rk32``, ``rk54`` or ``dop853``, which need ``tolerances``, the relative and the absolute one.
+    ``method`` is ``exact``, one with fixed steps, which needs ``dt`` and may have ``parameters``,
+    or ``rk32``, ``rk54`` or ``dop853``, which need ``tolerances``, the relative and the absolute
+    one.
     ``progress`` is called with the fraction done, about ten times a second.
     """
 
-def stability_limit(system: System, laws: Sequence[Law], method: str) -> float:
-    """Largest stable step of a fixed-step method with every stop closed, in s."""
+def stability_limit(
+    system: System,
+    laws: Sequence[Law],
+    method: str,
+    parameters: Mapping[str, float] | None = None,
+) -> float:
+    """Largest stable step of a fixed-step method with every stop closed, in s; it may be inf."""

@@ -2,41 +2,53 @@
 
 from __future__ import annotations
 
+import math
 import warnings
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
 from bumpstop import _core
-from bumpstop.arguments import did_you_mean, finite, not_negative, one_of, positive
+from bumpstop.arguments import finite, not_negative, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
-from bumpstop.problem import Law, Problem
+from bumpstop.methods import (
+    ADAPTIVE_METHODS,
+    FIXED_STEP_METHODS,
+    METHODS,
+    ONE_STEP_METHODS,
+    RTOL,
+    check_method,
+    check_options,
+    checked_parameters,
+    smoothness,
+)
+from bumpstop.problem import Problem
 from bumpstop.response import Response
 
-__all__ = ["METHODS", "simulate", "usable_options"]
+__all__ = ["simulate"]
 
-FIXED_STEP_METHODS = ("symplectic_euler", "central_difference")
-ADAPTIVE_METHODS = ("rk32", "rk54", "dop853")
-METHODS = ("auto", "exact", *FIXED_STEP_METHODS, *ADAPTIVE_METHODS)
-OPTIONS: dict[str, tuple[str, ...]] = {
-    "auto": ("rtol", "atol"),
-    "exact": (),
-    **dict.fromkeys(FIXED_STEP_METHODS, ("dt", "beyond_stability_limit")),
-    **dict.fromkeys(ADAPTIVE_METHODS, ("rtol", "atol")),
-}
-"""What each method can be told; ``"auto"`` has no use for it where it takes the exact one."""
 LARGEST_RECORD = 4 * 2**30
 """Memory in bytes that the core gives to the steps of a run."""
 LANES = 8
 """The core keeps the modes of a step in blocks of so many."""
-RTOL = 1e-8
-"""Relative tolerance of the adaptive methods where none is given."""
+CUBIC = 4
+"""Coefficients in time of each number of a classical scheme's step."""
+WORKS = 4
+"""Numbers of a step beside those of the modes and of each law."""
 FINEST_RTOL = 1e-14
 """The finest relative tolerance: rounding rules below it."""
 MOST_ENERGY = 1e200
 """Twice the energy, in J, above which products of motions leave the range of numbers."""
+
+
+class Stepping(NamedTuple):
+    """A method with the parameters of its scheme, and whether its step may be unstable."""
+
+    method: str
+    parameters: dict[str, float]
+    beyond_limit: bool
 
 
 def simulate(
@@ -45,6 +57,10 @@ def simulate(
     *,
     dt: float | None = None,
     beyond_stability_limit: bool = False,
+    beta: float | None = None,
+    gamma: float | None = None,
+    alpha: float | None = None,
+    spectral_radius: float | None = None,
     rtol: float | None = None,
     atol: float | None = None,
     progress: Callable[[float], None] | None = None,
@@ -60,12 +76,21 @@ def simulate(
         ``"exact"`` solves each phase between two contacts in closed form; ``"auto"`` takes it
         wherever it applies, and ``"dop853"`` where a law is smooth. ``"rk32"``, ``"rk54"`` and
         ``"dop853"`` are Runge-Kutta pairs of order 3, 5 and 8 whose steps follow a tolerance;
-        they locate every switch of a law. ``"symplectic_euler"`` (order 1) and
-        ``"central_difference"`` (order 2) march in equal steps.
+        they locate every switch of a law. The others march in equal steps: ``"symplectic_euler"``
+        (order 1), ``"central_difference"``, ``"newmark"``, ``"hht"``, ``"generalized_alpha"``,
+        ``"trbdf2"``, ``"exponential"`` (order 2) and ``"devogelaere"`` (order 4).
     dt
         Step in s of the fixed-step methods.
     beyond_stability_limit
         Allow a step above the method's stability limit.
+    beta, gamma
+        Weights of the end's acceleration in Newmark's displacement and velocity, 1/4 and 1/2
+        where left out.
+    alpha
+        Of the method of Hilber, Hughes and Taylor, from -1/3 to 0, -0.05 where left out.
+    spectral_radius
+        Of generalised alpha: what a step leaves of the highest frequencies, from 0 to 1, 0.8 where
+        left out.
     rtol
         Relative tolerance of the adaptive methods, if one is taken, 1e-8 where left out: the error
         of a step in each modal displacement and velocity over the largest that it has been so far.
@@ -117,15 +142,17 @@ def simulate(
     if chosen == "exact" and method == "auto":
         rtol = atol = None
     beyond = beyond_stability_limit or None
-    _check_options(chosen, unknown, dt=dt, beyond_stability_limit=beyond, rtol=rtol, atol=atol)
-    _refuse_coupled_modes(chosen, problem)
-    _refuse_rigid_stops(chosen, problem)
-    _refuse_smooth_laws(chosen, problem)
+    of_scheme = {"beta": beta, "gamma": gamma, "alpha": alpha, "spectral_radius": spectral_radius}
+    given = {"dt": dt, "beyond_stability_limit": beyond, "rtol": rtol, "atol": atol, **of_scheme}
+    check_options(chosen, unknown, given)
+    check_method(chosen, problem)
+    parameters = checked_parameters(chosen, of_scheme)
     tolerances = _checked_tolerances(chosen, rtol, atol)
     for line in problem.warnings:
         warnings.warn(line, ModellingWarning, stacklevel=2)
     model = _model(chosen, problem)
-    step = _checked_step(chosen, dt, problem.duration, model, beyond_stability_limit)
+    stepping = Stepping(chosen, parameters, beyond_stability_limit)
+    step = _checked_step(stepping, dt, problem.duration, model)
     try:
         history = _core.simulate(
             model.system,
@@ -138,20 +165,16 @@ def simulate(
             step,
             beyond_stability_limit,
             tolerances,
+            parameters,
             progress,
         )
     except _core.CoreError as error:
         _blame_scale(chosen, problem, error)
         raise ComputationError(f"the {chosen} method could not finish: {error}") from error
     relative, absolute = tolerances or (None, None)
-    told = {"dt": step, "rtol": relative, "atol": absolute}
+    told = {"dt": step, "rtol": relative, "atol": absolute, **parameters}
     options = {name: value for name, value in told.items() if value is not None}
     return Response(problem, history, times=problem.times, method_reason=reason, options=options)
-
-
-def usable_options(method: str, options: Mapping[str, object]) -> dict[str, Any]:
-    """Return those options, among many, that a method takes."""
-    return {key: value for key, value in options.items() if key in OPTIONS[method]}
 
 
 def _blame_scale(method: str, problem: Problem, error: Exception) -> None:
@@ -170,68 +193,10 @@ def _choose(method: str, problem: Problem) -> tuple[str, str]:
     if method != "auto":
         return method, "asked for"
     for law in problem.laws:
-        reason = _smooth(law)
+        reason = smoothness(law)
         if reason:
             return "dop853", f"{law.name!r} is not piecewise linear: {reason}"
     return "exact", "all laws are piecewise linear"
-
-
-def _check_options(method: str, unknown: dict[str, object], **known: object) -> None:
-    """Refuse what the method does not take. Known options are None where they are not given."""
-    takes = (*OPTIONS[method], "progress")
-    given = {name: value for name, value in known.items() if value is not None} | unknown
-    for name in [name for name in given if name not in takes]:
-        takers = [other for other, options in OPTIONS.items() if name in options]
-        hint = f"it takes {', '.join(takes)}; {name} is for {' and '.join(takers)}"
-        raise InputError(
-            f"is no option of the {method} method",
-            key=name,
-            value=given[name],
-            hint=hint if takers else did_you_mean(name, takes),
-        )
-
-
-def _refuse_coupled_modes(method: str, problem: Problem) -> None:
-    """Raise for a scheme that carries each mode by itself where something couples them."""
-    basis = problem.basis
-    if method in FIXED_STEP_METHODS and (basis.couples or basis.gyroscopic is not None):
-        raise InputError(
-            "does not take modes that damping or gyroscopic forces couple",
-            key="method",
-            value=method,
-            hint=f"the exact method and {', '.join(ADAPTIVE_METHODS)} do",
-        )
-
-
-def _refuse_rigid_stops(method: str, problem: Problem) -> None:
-    """Raise for a scheme that goes by forces where speeds jump."""
-    if method != "exact":
-        for law in problem.laws:
-            if hasattr(law, "restitution"):
-                raise InputError(
-                    f"does not take rigid stops such as {law.name!r}",
-                    key="method",
-                    value=method,
-                    hint="the exact method does",
-                )
-
-
-def _refuse_smooth_laws(method: str, problem: Problem) -> None:
-    """Raise for a method that goes by the matrices of laws where one has none."""
-    if method in ADAPTIVE_METHODS:
-        return
-    for law in problem.laws:
-        reason = _smooth(law)
-        if reason:
-            what = f"does not take {law.name!r}: {reason}"
-            hint = f"{', '.join(ADAPTIVE_METHODS)} do"
-            raise InputError(what, key="method", value=method, hint=hint)
-
-
-def _smooth(law: Law) -> str:
-    """Return why a law is not piecewise linear; nothing where it is."""
-    reason: str = getattr(law, "smooth", "")
-    return reason
 
 
 def _checked_tolerances(
@@ -261,24 +226,25 @@ def _model(method: str, problem: Problem) -> CanonicalForm:
 
 
 def _checked_step(
-    method: str, dt: float | None, duration: float, model: CanonicalForm, beyond_limit: bool
+    stepping: Stepping, dt: float | None, duration: float, model: CanonicalForm
 ) -> float | None:
+    method = stepping.method
     if method not in FIXED_STEP_METHODS:
         return None
-    limit = _core.stability_limit(model.system, model.laws, method)
+    limit = _core.stability_limit(model.system, model.laws, method, stepping.parameters)
     if dt is None:
-        hint = f"stable up to {limit:.4g} s"
+        hint = f"stable up to {limit:.4g} s" if limit < math.inf else "every step is stable"
         raise InputError(f"the {method} method needs a step in s", key="dt", hint=hint)
     step = positive("dt", dt)
     if step > duration:
         hint = f"the duration is {duration:g} s"
         raise InputError("must not exceed the duration", key="dt", value=dt, hint=hint)
-    most = _most_steps(len(model.displacement))
+    most = _most_steps(method, model)
     if duration / step > most:
         what = f"makes {duration / step:.2g} steps, more than the {most:.2g} that memory holds"
         hint = f"take at least {duration / most:.3g} s"
         raise InputError(what, key="dt", value=dt, hint=hint)
-    if step > limit and not beyond_limit:
+    if step > limit and not stepping.beyond_limit:
         raise InputError(
             f"is above the stability limit of {limit:.6g} s of the {method} method",
             key="dt",
@@ -288,7 +254,10 @@ def _checked_step(
     return step
 
 
-def _most_steps(modes: int) -> int:
-    """Return how many steps of so many modes the core keeps, without those about both ends."""
+def _most_steps(method: str, model: CanonicalForm) -> int:
+    """Return how many steps the core keeps, without those about both ends."""
+    modes = len(model.displacement)
     numbers = LANES * -(-modes // LANES)
+    if method in ONE_STEP_METHODS:
+        numbers = CUBIC * (2 * modes + WORKS + len(model.laws))
     return LARGEST_RECORD // (8 * numbers) - 4

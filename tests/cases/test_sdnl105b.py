@@ -26,6 +26,14 @@ def test_references(variant: str, checks: int, case: bs.Case) -> None:
     assert all(check.passed for check in done)
 
 
+def test_the_scheme_of_the_second_run(case: bs.Case) -> None:
+    """De Vogelaere's, at the step that the published run did not exceed."""
+    response = bs.simulate(case.problems["converged"], "devogelaere", dt=2e-5)
+    done = check_references(response, case.references["converged"])
+    assert len(done) == 27
+    assert all(check.passed for check in done)
+
+
 def test_one_structure_without_components(case: bs.Case) -> None:
     """The published references of run 1 are of such a model: agreement to rounding."""
     basis = bs.ModalBasis.from_structure(_frame(), modes=15)

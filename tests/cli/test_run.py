@@ -534,6 +534,22 @@ def test_a_step_above_the_stability_limit(call: Output, tmp_path: Path) -> None:
     assert error.startswith(f"error: {file}: run.dt: is above the stability limit of ")
 
 
+def test_schemes_and_their_parameters_stand_in_case_files(call: Output, tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    scheme = 'method = "generalized_alpha"\nspectral_radius = 0.5\n'
+    text = SDNL32.read_text()
+    file.write_text(text.replace("[run]\n", f"[run]\n{scheme}").replace('method = "exact"\n', ""))
+    status, output, _ = call("run", str(file), "--json")
+    variants = json.loads(output)["variants"]
+    assert status == 0
+    assert {each["method"] for each in variants} == {"generalized_alpha"}
+    assert {each["steps"] for each in variants} == {2000}
+    file.write_text(file.read_text().replace("radius = 0.5", "radius = 1.5"))
+    status, _, error = call("run", str(file))
+    assert status == 2
+    assert error.startswith(f"error: {file}: run.spectral_radius: must be from 0 to 1 (got 1.5)")
+
+
 def test_the_reader_of_a_pipe_may_leave(tmp_path: Path) -> None:
     script = f"{sys.executable} -m bumpstop {' '.join(RUN)} 2>{tmp_path}/error | head -1"
     done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True)

@@ -36,14 +36,28 @@ def exact() -> tuple[Array, Array]:
 
 
 @pytest.mark.parametrize("derivative", [0, 1])
-@pytest.mark.parametrize(("method", "order"), [("symplectic_euler", 1), ("central_difference", 2)])
+@pytest.mark.parametrize(
+    ("method", "order"),
+    [
+        ("symplectic_euler", 1),
+        ("central_difference", 2),
+        ("newmark", 2),
+        ("hht", 2),
+        ("generalized_alpha", 2),
+        ("trbdf2", 2),
+        ("exponential", 2),
+        ("devogelaere", 4),
+    ],
+)
 def test_order_over_four_steps(
     method: str, order: int, derivative: int, exact: tuple[Array, Array]
 ) -> None:
     problem = always_closed()
+    # A high order comes down to rounding early.
+    coarser = 4 if order > 2 else 1
     errors = [
         np.abs(problem.solve(method, dt).motion(TIMES, derivative) - exact[derivative]).max()
-        for dt in STEPS
+        for dt in coarser * np.array(STEPS)
     ]
     observed = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
     assert observed == pytest.approx(np.full(3, float(order)), abs=0.05)

@@ -12,9 +12,10 @@ import numpy as np
 from bumpstop.arguments import did_you_mean, positive
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.io.case import Case
+from bumpstop.methods import FIXED_STEP_METHODS, METHODS, usable_options
 from bumpstop.post.references import Check, check_frequencies, check_references
 from bumpstop.response import Response
-from bumpstop.simulate import FIXED_STEP_METHODS, METHODS, simulate, usable_options
+from bumpstop.simulate import simulate
 
 __all__ = [
     "CaseResult",

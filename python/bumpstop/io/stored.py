@@ -15,10 +15,10 @@ from bumpstop.arguments import FloatArray
 from bumpstop.errors import BumpstopError, InputError
 from bumpstop.io.reading import in_file
 from bumpstop.io.statement import unpacked
+from bumpstop.methods import OPTIONS
 from bumpstop.problem import Problem
 from bumpstop.quantities import IMPACTS
 from bumpstop.response import MOTIONS, Response
-from bumpstop.simulate import OPTIONS
 
 if TYPE_CHECKING:
     from bumpstop._core import History

@@ -75,6 +75,7 @@ class ZenerDamper(Connection):
 
     kind: ClassVar[str] = "damper"
     smooth: ClassVar[str] = "its dashpot follows a rate equation"
+    flows: ClassVar[bool] = True
     """Why it is not piecewise linear."""
 
     _: KW_ONLY

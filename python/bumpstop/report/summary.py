@@ -19,6 +19,7 @@ from bumpstop.loads import (
     TimeTable,
 )
 from bumpstop.loads.time import time_functions
+from bumpstop.methods import PARAMETERS
 from bumpstop.modal.substructure import Assembly
 from bumpstop.report.scales import significant, with_unit
 from bumpstop.structure.sections.rectangle import Rectangle
@@ -64,6 +65,15 @@ METHODS = {
     ),
     "symplectic_euler": ("Symplectic Euler", "equal steps, first order"),
     "central_difference": ("Central difference", "equal steps, second order"),
+    "newmark": ("Newmark", "equal implicit steps, second order with gamma = 1/2"),
+    "hht": ("Hilber-Hughes-Taylor", "equal implicit steps, second order"),
+    "generalized_alpha": ("Generalised alpha", "equal implicit steps, second order"),
+    "trbdf2": ("TR-BDF2", "equal implicit steps, second order"),
+    "devogelaere": ("De Vogelaere-Fu", "equal explicit steps, fourth order"),
+    "exponential": (
+        "Exponential",
+        "equal steps, exact for the modes, second order for laws and loads",
+    ),
 }
 """Name and nature of each method."""
 
@@ -74,6 +84,9 @@ def method_words(response: Response) -> tuple[str, str]:
     step = response.options.get("dt")
     if step is not None:
         name = f"{name}, dt = {with_unit(step, 's')}"
+    for parameter in PARAMETERS.get(response.method, {}):
+        if parameter in response.options:
+            name = f"{name}, {parameter} = {response.options[parameter]:g}"
     if "rtol" in response.options:
         name = f"{name}, rtol = {response.options['rtol']:g}"
     reason = f"Chosen because {response.method_reason}." if response.method_reason else ""

@@ -19,7 +19,8 @@ from bumpstop.errors import BumpstopError, InputError, ModellingWarning
 from bumpstop.io.case.build import Builder
 from bumpstop.io.case.load import checked_tables, method_of
 from bumpstop.io.case.overrides import overridden
-from bumpstop.simulate import simulate, usable_options
+from bumpstop.methods import usable_options
+from bumpstop.simulate import simulate
 from bumpstop.study.outputs import Output
 from bumpstop.study.parameters import Level
 

@@ -18,10 +18,14 @@ __all__ = ["Case", "Method", "MethodOptions"]
 
 
 class MethodOptions(TypedDict, total=False):
-    """Options of the methods: the step in s and whether it may be unstable, or tolerances."""
+    """Options of the methods: step in s, whether it may be unstable, parameters; tolerances."""
 
     dt: float
     beyond_stability_limit: bool
+    beta: float
+    gamma: float
+    alpha: float
+    spectral_radius: float
     rtol: float
     atol: float
 

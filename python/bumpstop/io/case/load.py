@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from pydantic_core import ValidationError
@@ -120,14 +120,9 @@ def _readable(name: str) -> str:
 
 def method_of(run: RunTable) -> Method:
     """Return how the time of a case is integrated."""
-    options: MethodOptions = {"beyond_stability_limit": run.beyond_stability_limit}
-    if run.dt is not None:
-        options["dt"] = run.dt
-    if run.rtol is not None:
-        options["rtol"] = run.rtol
-    if run.atol is not None:
-        options["atol"] = run.atol
-    return Method(run.method, options)
+    given = {name: getattr(run, name) for name in MethodOptions.__annotations__}
+    options = {name: value for name, value in given.items() if value is not None}
+    return Method(run.method, cast(MethodOptions, options))
 
 
 def _documents(document: dict[str, Any], base: CaseFile, folder: Path) -> dict[str, dict[str, Any]]:

@@ -16,8 +16,8 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError, InputError
+from bumpstop.methods import FIXED_STEP_METHODS, RTOL
 from bumpstop.modal.selection import LowestModes, ModesAround, ModeSelection, ModesInBand
-from bumpstop.simulate import FIXED_STEP_METHODS, RTOL
 from bumpstop.study.convergence.finer import Document, has_beams, with_modes, with_static_shapes
 from bumpstop.study.convergence.limits import extrapolated, orders_towards
 from bumpstop.study.convergence.model import BEST_RTOL, Model, Result

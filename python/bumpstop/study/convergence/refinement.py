@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from bumpstop.arguments import count, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.io.case.build import Builder
+from bumpstop.methods import METHODS, OPTIONS
 from bumpstop.modal.selection import AllModes, LowestModes
-from bumpstop.simulate import METHODS, OPTIONS
 from bumpstop.study.convergence.ladders import (
     EXACT,
     Limits,

@@ -168,6 +168,9 @@ impl<'a, L: Law> Laws<'a, L> {
     /// # Errors
     /// [`Error::NoContactForce`]
     pub(super) fn meet(&mut self, pushes: &Pushes, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        if self.forces.is_empty() {
+            return Ok(());
+        }
         for (index, law) in self.problem.laws.iter().enumerate() {
             let local = self.problem.local(index, time, q, v);
             for (free, local) in self.free.iter_mut().zip(local) {

@@ -181,9 +181,13 @@ impl<'a, L: Law> Trace<'a, L> {
             rates,
             ..
         } = self;
-        equations.take_states(&self.states);
         let mut knot = equations.loads.turn(start);
-        equations.rates(start, &ends[0], &mut rates[0]);
+        rates.swap(0, 1);
+        if equations.loads.vary() {
+            // They may have jumped.
+            equations.take_states(&self.states);
+            equations.rates(start, &ends[0], &mut rates[0]);
+        }
         while knot < end {
             self.cuts.push(Cut {
                 theta: (knot - start) / self.h,
@@ -258,6 +262,12 @@ impl<'a, L: Law> Trace<'a, L> {
         } = &mut self.part;
         let thetas = [from, to, 0.5 * (from + to)];
         for ((numbers, rates), theta) in numbers.iter_mut().zip(&mut *rates).zip(thetas) {
+            if theta == 0.0 || theta == 1.0 {
+                let end = usize::from(theta == 1.0);
+                numbers.copy_from_slice(&self.ends[end]);
+                rates.copy_from_slice(&self.rates[end]);
+                continue;
+            }
             dense.at(theta, &mut numbers[..works]);
             let time = span[0] + theta * self.h;
             self.equations.rates(time, numbers, rates);

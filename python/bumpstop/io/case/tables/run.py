@@ -3,10 +3,10 @@
 from typing import Annotated
 
 from bumpstop.io.case.fields.counts import Switch
-from bumpstop.io.case.fields.quantities import PositiveNumber, PositiveTime, Ratio
+from bumpstop.io.case.fields.quantities import Number, PositiveNumber, PositiveTime, Ratio
 from bumpstop.io.case.fields.words import Formats, choice
 from bumpstop.io.case.tables.table import Field, Table
-from bumpstop.simulate import METHODS
+from bumpstop.methods import METHODS
 
 __all__ = ["RunTable"]
 
@@ -23,6 +23,20 @@ class RunTable(Table):
     )
     beyond_stability_limit: Switch = Field(
         default=False, description="Allow a step above the stability limit of a fixed-step method"
+    )
+    beta: Ratio | None = Field(
+        default=None, description="Newmark's weight in the displacement, 1/4 where left out"
+    )
+    gamma: Ratio | None = Field(
+        default=None, description="Newmark's weight in the velocity, 1/2 where left out"
+    )
+    alpha: Number | None = Field(
+        default=None, description="Parameter of the hht method, -1/3 to 0, -0.05 where left out"
+    )
+    spectral_radius: Ratio | None = Field(
+        default=None,
+        description="What a step of the generalized_alpha method leaves of the highest "
+        "frequencies, 0 to 1, 0.8 where left out",
     )
     rtol: PositiveNumber | None = Field(
         default=None,

@@ -1,0 +1,148 @@
+"""The methods by name, what each can be told, and what it does not take."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from bumpstop.arguments import did_you_mean, finite
+from bumpstop.errors import InputError
+from bumpstop.problem import Law, Problem
+
+__all__ = [
+    "ADAPTIVE_METHODS",
+    "FIXED_STEP_METHODS",
+    "METHODS",
+    "ONE_STEP_METHODS",
+    "OPTIONS",
+    "PARAMETERS",
+    "RTOL",
+    "check_method",
+    "check_options",
+    "checked_parameters",
+    "smoothness",
+    "usable_options",
+]
+
+
+class Range(NamedTuple):
+    """What a parameter of a scheme may be."""
+
+    least: float
+    most: float
+
+
+EXPLICIT_METHODS = ("symplectic_euler", "central_difference")
+"""Marches that keep displacements alone; they take laws of straight pieces."""
+PARAMETERS: dict[str, dict[str, Range]] = {
+    "newmark": {"beta": Range(0.0, 1.0), "gamma": Range(0.5, 1.0)},
+    "hht": {"alpha": Range(-1.0 / 3.0, 0.0)},
+    "generalized_alpha": {"spectral_radius": Range(0.0, 1.0)},
+    "trbdf2": {},
+    "devogelaere": {},
+    "exponential": {},
+}
+"""Classical schemes of one step, with the parameters of each."""
+ONE_STEP_METHODS = tuple(PARAMETERS)
+FIXED_STEP_METHODS = (*EXPLICIT_METHODS, *ONE_STEP_METHODS)
+ADAPTIVE_METHODS = ("rk32", "rk54", "dop853")
+METHODS = ("auto", "exact", *FIXED_STEP_METHODS, *ADAPTIVE_METHODS)
+OPTIONS: dict[str, tuple[str, ...]] = {
+    "auto": ("rtol", "atol"),
+    "exact": (),
+    **dict.fromkeys(FIXED_STEP_METHODS, ("dt", "beyond_stability_limit")),
+    **{name: ("dt", "beyond_stability_limit", *known) for name, known in PARAMETERS.items()},
+    **dict.fromkeys(ADAPTIVE_METHODS, ("rtol", "atol")),
+}
+"""What each method can be told; ``"auto"`` has no use for it where it takes the exact one."""
+RTOL = 1e-8
+"""Relative tolerance of the adaptive methods where none is given."""
+MODE_BY_MODE = (*EXPLICIT_METHODS, "devogelaere", "exponential")
+"""Methods that carry each mode by itself."""
+
+
+def check_method(method: str, problem: Problem) -> None:
+    """Raise where a method does not take what the problem is made of."""
+    _refuse_coupled_modes(method, problem)
+    _refuse_rigid_stops(method, problem)
+    _refuse_smooth_laws(method, problem)
+
+
+def check_options(method: str, unknown: Mapping[str, object], known: Mapping[str, object]) -> None:
+    """Refuse what the method does not take. Known options are None where they are not given."""
+    takes = (*OPTIONS[method], "progress")
+    given = {name: value for name, value in known.items() if value is not None} | dict(unknown)
+    for name in [name for name in given if name not in takes]:
+        takers = [other for other, options in OPTIONS.items() if name in options]
+        hint = f"it takes {', '.join(takes)}; {name} is for {' and '.join(takers)}"
+        raise InputError(
+            f"is no option of the {method} method",
+            key=name,
+            value=given[name],
+            hint=hint if takers else did_you_mean(name, takes),
+        )
+
+
+def checked_parameters(method: str, given: Mapping[str, float | None]) -> dict[str, float]:
+    """Return the parameters of a scheme that are given, each within its range."""
+    parameters = {}
+    for name, (least, most) in PARAMETERS.get(method, {}).items():
+        if given[name] is None:
+            continue
+        value = finite(name, given[name])
+        if not least <= value <= most:
+            what = f"must be from {least:.6g} to {most:.6g}"
+            raise InputError(what, key=name, value=value, hint=f"for the {method} method")
+        parameters[name] = value
+    return parameters
+
+
+def smoothness(law: Law) -> str:
+    """Return why a law is not piecewise linear; nothing where it is."""
+    reason: str = getattr(law, "smooth", "")
+    return reason
+
+
+def usable_options(method: str, options: Mapping[str, object]) -> dict[str, Any]:
+    """Return those options, among many, that a method takes."""
+    return {key: value for key, value in options.items() if key in OPTIONS[method]}
+
+
+def _refuse_coupled_modes(method: str, problem: Problem) -> None:
+    """Raise for a scheme that carries each mode by itself where something couples them."""
+    basis = problem.basis
+    if method in MODE_BY_MODE and (basis.couples or basis.gyroscopic is not None):
+        raise InputError(
+            "does not take modes that damping or gyroscopic forces couple",
+            key="method",
+            value=method,
+            hint=f"the exact method and {', '.join(ADAPTIVE_METHODS)} do",
+        )
+
+
+def _refuse_rigid_stops(method: str, problem: Problem) -> None:
+    """Raise for a scheme that goes by forces where speeds jump."""
+    if method != "exact":
+        for law in problem.laws:
+            if hasattr(law, "restitution"):
+                raise InputError(
+                    f"does not take rigid stops such as {law.name!r}",
+                    key="method",
+                    value=method,
+                    hint="the exact method does",
+                )
+
+
+def _refuse_smooth_laws(method: str, problem: Problem) -> None:
+    """Raise for a method that asks laws for matrices where one has none.
+
+    Schemes for equations of motion refuse laws with rate equations of their own.
+    """
+    if method in ADAPTIVE_METHODS:
+        return
+    for law in problem.laws:
+        reason = smoothness(law)
+        if reason and (method not in ONE_STEP_METHODS or getattr(law, "flows", False)):
+            what = f"does not take {law.name!r}: {reason}"
+            hint = f"{', '.join(ADAPTIVE_METHODS)} do"
+            raise InputError(what, key="method", value=method, hint=hint)
