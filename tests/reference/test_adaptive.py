@@ -244,3 +244,18 @@ def test_a_motion_without_bounds_is_told_with_its_time() -> None:
     problem = bs.Problem(basis, laws=[push], initial=start, duration=2.0)
     with pytest.raises(bs.ComputationError, match=r"rk54 method could not finish.*t = "):
         bs.simulate(problem, "rk54", rtol=1e-4)
+
+
+@pytest.mark.parametrize("method", ["rk32", "rk54", "dop853"])
+def test_a_structure_leaves_rest_under_a_force_that_begins_at_zero(method: str) -> None:
+    basis = bs.ModalBasis.from_modes(
+        frequency=[3.0, 7.5], damping=0.01, shapes={("P", "dx"): [1.0, 0.4]}
+    )
+    sine = bs.NodalForce("sine", node="P", force=(10, 0, 0), time=[bs.Harmonic(5.0, sine=1.0)])
+    problem = bs.Problem(basis, loads=[sine], duration=1.0)
+    times = np.linspace(0.0, 1.0, 101)
+    one, other = (
+        bs.simulate(problem, name, **options).sample("displacement", "P", "dx", times=times)
+        for name, options in ((method, {"rtol": 1e-6}), ("exact", {}))
+    )
+    np.testing.assert_allclose(one, other, rtol=0, atol=3e-5 * np.abs(other).max())

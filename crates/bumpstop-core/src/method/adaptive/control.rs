@@ -3,7 +3,9 @@
 //! The error of each number is measured by the largest that this number has been so far, since a
 //! vibration passes zero over and over. Displacements that are small beside the largest of them
 //! are measured by a part of that, and velocities alike, unless an absolute tolerance is given. A
-//! law's memory is measured so by the motion that it goes with.
+//! law's memory is measured so by the motion that it goes with. What leaves rest is measured by what
+//! its acceleration makes of it in the time of the first step that was tried: forces may begin with
+//! any power of time, and a step that is measured by nothing but itself may never be good enough.
 //! The largest ratio counts.
 //!
 //! The controller is proportional and integral: K. Gustafsson, Control theoretic techniques for
@@ -73,10 +75,17 @@ pub(super) struct Control {
     floors: [Vec<f64>; 2],
     /// Error of the last step that was taken.
     before: f64,
+    /// The first step that is tried, in s.
+    first_step: f64,
 }
 
 impl Control {
-    pub(super) fn new(tolerances: Tolerances, start: &[f64], layout: &Layout) -> Self {
+    pub(super) fn new(
+        tolerances: Tolerances,
+        first_step: f64,
+        start: &[f64],
+        layout: &Layout,
+    ) -> Self {
         let controlled = layout.works;
         Self {
             tolerances,
@@ -85,6 +94,7 @@ impl Control {
             errors: vec![0.0; controlled],
             floors: [0, 1].map(|_| vec![0.0; controlled - 2 * layout.modes]),
             before: LEAST,
+            first_step,
         }
     }
 
@@ -99,7 +109,8 @@ impl Control {
         (problem, layout): (&Problem<L>, &Layout),
     ) -> f64 {
         layout.memory_sizes(problem, end, &mut self.floors[1]);
-        self.set_scales(end, layout);
+        self.set_sizes(end, stages, layout);
+        self.set_scales(layout);
         let [first, second] = [0, 1]
             .map(|n| (pair.errors.get(n)).map_or(0.0, |weights| self.largest(h, weights, stages)));
         let error = if pair.errors.len() == 1 || first == 0.0 {
@@ -156,11 +167,27 @@ impl Control {
         largest
     }
 
-    /// What the error of each number is measured by.
-    fn set_scales(&mut self, end: &[f64], layout: &Layout) {
+    /// How large each number has been, the end of the step that is tried included.
+    fn set_sizes(&mut self, end: &[f64], stages: &[Vec<f64>], layout: &Layout) {
         for ((scale, size), x) in self.scales.iter_mut().zip(&self.sizes).zip(end) {
             *scale = size.max(x.abs());
         }
+        let modes = layout.modes;
+        if self.sizes[..2 * modes].iter().any(|size| *size != 0.0) {
+            return;
+        }
+        for mode in 0..modes {
+            let accelerations = stages.iter().map(|stage| stage[modes + mode].abs());
+            let speed = self.first_step * accelerations.fold(0.0, f64::max);
+            let both = [(mode, 0.5 * self.first_step * speed), (modes + mode, speed)];
+            for (at, floor) in both {
+                self.scales[at] = self.scales[at].max(floor);
+            }
+        }
+    }
+
+    /// What the error of each number is measured by.
+    fn set_scales(&mut self, layout: &Layout) {
         let Tolerances { relative, absolute } = self.tolerances;
         let (motion, memories) = self.scales.split_at_mut(2 * layout.modes);
         for kind in motion.chunks_mut(layout.modes) {

@@ -103,7 +103,7 @@ impl<'a, L: Law> Run<'a, L> {
         Self {
             problem,
             pair,
-            control: Control::new(tolerances, &numbers, &layout),
+            control: Control::new(tolerances, first_step(problem), &numbers, &layout),
             stepper: Stepper::new(pair, numbers),
             watch: Watch::new(problem, pair.degree()),
             states,
