@@ -36,8 +36,10 @@ def test_a_place_that_damped_rigid_modes_keep_counts_in_the_walk(seed: int) -> N
     check(random_coupled(seed))
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2, 4, 5, 6, 7, 8, 9, 10])
+@pytest.mark.parametrize("seed", [0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 259, 514])
 def test_random_problem_of_a_stop_only_just_touched(seed: int) -> None:
+    # The last two start at rest: one in a run so short that all its modes are slow, one with modes
+    # so close to each other that amplitudes need further rounds.
     check(random_grazing(seed))
 
 

@@ -270,7 +270,7 @@ pub enum Error {
     },
     /// No spectrum of a phase passed its check.
     #[error(
-        "the vibration modes with the laws' present states are too close to each other at t = {time:e} s to be separated (relative error {defect:.1e}); change the damping of a mode a little, or take a fixed-step method"
+        "the motion from t = {time} s on could not be separated into exponentials to more than {defect:.1e}: either numbers lie too many orders of magnitude apart, or vibration modes with the laws' present states nearly coincide; check the units, or take an adaptive method"
     )]
     Defective {
         /// Instant at which the phase starts, in s.

@@ -5,12 +5,19 @@ use super::rows::set_entry;
 use super::singles::Subject;
 use super::spectrum::Spectrum;
 use crate::error::{Error, Result};
-use crate::number::Instructions;
+use crate::number::{Instructions, Plain};
 
 /// The largest error, relative to the state's largest part, with which the amplitudes of a
 /// phase may give back the state they were made from. Beyond it the eigenvectors are too close
 /// to each other to be trusted.
 const LARGEST_DEFECT: f64 = 1e-10;
+
+/// The same at first, where further rounds bring it below: what is lost to eigenvectors so close
+/// to each other is told by the error of the motion.
+const LARGEST_FIRST_DEFECT: f64 = 1e-8;
+
+/// Further rounds at most.
+const MOST_ROUNDS: usize = 4;
 
 impl Workspace {
     /// Amplitudes of what moves by itself, and what is kept of it.
@@ -42,6 +49,30 @@ impl Workspace {
         spectrum: &Spectrum,
         time: f64,
     ) -> Result<()> {
+        let [size, size_rate] = self.take_state(spectrum);
+        spectrum.add_amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.z);
+        let (lack, lack_rate) = self.find_lack::<I>(spectrum);
+        if !(size.is_finite() && size_rate.is_finite()) {
+            return Err(Error::Overflow { time });
+        }
+        // A position and a velocity are measured against each other by the fastest exponent.
+        let fastest = spectrum.pace().max(f64::MIN_POSITIVE);
+        let scale = size.max(size_rate / fastest).max(f64::MIN_POSITIVE);
+        let defect = lack.max(lack_rate / fastest) / scale;
+        // Written so that a defect which is not a number is one too large.
+        let is_complete = defect <= LARGEST_DEFECT
+            || defect <= LARGEST_FIRST_DEFECT && self.complete(spectrum, fastest, scale);
+        if !is_complete {
+            return Err(Error::Defective { time, defect });
+        }
+        spectrum.add_amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.z);
+        Ok(())
+    }
+
+    /// The state less the position at rest, which the amplitudes are to give; returns the sizes of
+    /// positions and velocities.
+    #[inline(always)]
+    fn take_state(&mut self, spectrum: &Spectrum) -> [f64; 2] {
         let (mut size, mut size_rate) = (0.0f64, 0.0f64);
         self.lack_position.clear();
         self.lack_velocity.clear();
@@ -59,20 +90,19 @@ impl Workspace {
         for (lack, rate) in self.lack_velocity.iter_mut().zip(&spectrum.rate_at_rest) {
             *lack -= rate;
         }
-        spectrum.add_amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.z);
-        let (lack, lack_rate) = self.find_lack::<I>(spectrum);
-        if !(size.is_finite() && size_rate.is_finite()) {
-            return Err(Error::Overflow { time });
-        }
-        // A position and a velocity are measured against each other by the fastest exponent.
-        let fastest = spectrum.fastest.max(f64::MIN_POSITIVE);
-        let scale = size.max(size_rate / fastest).max(f64::MIN_POSITIVE);
-        let defect = lack.max(lack_rate / fastest) / scale;
-        if defect.is_nan() || defect > LARGEST_DEFECT {
-            return Err(Error::Defective { time, defect });
-        }
-        spectrum.add_amplitudes::<I>(&self.lack_position, &self.lack_velocity, &mut self.z);
-        Ok(())
+        [size, size_rate]
+    }
+
+    /// Gives the amplitudes what they lack until they give the state back, and tells whether they
+    /// do. Rare, so that plain arithmetic does.
+    #[cold]
+    fn complete(&mut self, spectrum: &Spectrum, fastest: f64, scale: f64) -> bool {
+        (0..MOST_ROUNDS).any(|_| {
+            spectrum.add_amplitudes::<Plain>(&self.lack_position, &self.lack_velocity, &mut self.z);
+            self.take_state(spectrum);
+            let (lack, lack_rate) = self.find_lack::<Plain>(spectrum);
+            lack.max(lack_rate / fastest) <= LARGEST_DEFECT * scale
+        })
     }
 
     /// What the amplitudes lack of the state; returns the largest lack of position and velocity.
