@@ -14,6 +14,7 @@ from .several.forced import random_forced
 from .several.multilinear import random_multilinear
 from .several.random_problems import random_several
 from .several.rubbing import random_rubbing
+from .several.scan import ScanSolution
 
 CASES = Path(__file__).parents[2] / "cases"
 ADAPTIVE = ("rk32", "rk54", "dop853")
@@ -101,6 +102,7 @@ def test_the_order_is_that_of_the_pair(method: str, order: int, name: str, varia
     assert found > 0.8 * order
 
 
+LARGEST_GROWTH = 1e5
 FAMILIES = {
     "several": random_several,
     "forced": random_forced,
@@ -115,6 +117,9 @@ FAMILIES = {
 def test_random_problems_of_several_laws(family: str, seed: int) -> None:
     """The exact method is held against judges of its own in other files."""
     problem = FAMILIES[family](seed)
+    # Up to where what is rounding in one of them may have grown to what the tolerance lets pass,
+    # and not just to a switch.
+    problem = problem.but(duration=0.99 * ScanSolution(problem, LARGEST_GROWTH).end)
     exact, found = problem.solve(), problem.solve("dop853", 1e-12)
     times = np.linspace(0.0, problem.duration, 41)
     true = exact.motion(times, 0)
