@@ -270,6 +270,22 @@ def test_sliding_phase_of_unit_friction_is_the_exponential_of_its_unsymmetric_ma
         assert state(time)[:4] == pytest.approx(expected[:4], rel=1e-11, abs=1e-13)
 
 
+def one_mode_on_a_wall(*dofs: str) -> bs.Problem:
+    basis = bs.ModalBasis.from_modes(frequency=[5.0], shapes={("P", dof): [1.0] for dof in dofs})
+    wall = bs.Stop(
+        "wall", node="P", normal=(1, 0, 0), stiffness=1e5, friction=0.2, tangential_stiffness=1e5
+    )
+    thrown = bs.ModalState(velocity=[-1.0])
+    return bs.Problem(basis, laws=[wall], initial=thrown, duration=0.01)
+
+
+def test_a_node_that_one_mode_moves_slides_or_is_refused() -> None:
+    sliding = bs.simulate(one_mode_on_a_wall("dx", "dy"))
+    assert float(abs(sliding.friction_force("wall")).max()) > 0
+    with pytest.raises(bs.InputError, match="no mode moves this node along the obstacle"):
+        one_mode_on_a_wall("dx")
+
+
 def test_what_is_refused() -> None:
     plain: dict[str, Any] = {"node": "P", "normal": (0, 0, 1), "stiffness": 1e4}
     with pytest.raises(bs.InputError, match="tangential_stiffness: friction needs it"):

@@ -108,3 +108,19 @@ def test_a_body_clatters_on_two_stops_until_it_lies(lean: float) -> None:
     rest = np.linalg.solve(rows, -0.02 - pushes / 4e3)
     assert history.motion(np.array([30.0]), 0)[0] == pytest.approx(rest, rel=1e-11)
     assert history.energy_residual() < EXACT
+
+
+def test_every_flight_and_contact_has_a_step_that_certifies_it() -> None:
+    stop = Stop(np.array([1.0]), 0.0, 4e3, 0.0)
+    ball = SeveralStops(
+        omega2=np.array([30.0]),
+        damping=np.zeros(1),
+        stops=(stop,),
+        duration=50.0,
+        displacement=np.array([0.1]),
+        velocity=np.zeros(1),
+        force=np.array([-GRAVITY]),
+    )
+    history = ball.solve()
+    assert len(core_events(history)) > 100
+    assert history.steps > len(core_events(history))

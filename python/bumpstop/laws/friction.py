@@ -102,9 +102,13 @@ def sliding_row(
     """
     row = sliding_coordinate(basis, contact, sliding).row(basis)
     if not row.any():
-        what = "no mode moves this node along the obstacle"
-        raise InputError(what, key="friction", hint="leave the friction out")
+        raise _no_sliding()
     return row
+
+
+def _no_sliding() -> InputError:
+    what = "no mode moves this node along the obstacle"
+    return InputError(what, key="friction", hint="leave the friction out")
 
 
 def sliding_coordinate(
@@ -134,9 +138,12 @@ def _only_direction(basis: ModalBasis, contact: Coordinate) -> Vector:
         raise InputError("must be told where there are terms", key="sliding", hint=hint)
     shapes = np.array([component_row(basis, contact, dof) for dof in TRANSLATIONS])
     normal = np.asarray(contact.direction)
+    whole = np.linalg.norm(shapes)
     shapes -= np.outer(normal, normal @ shapes)
     directions, sizes, _ = np.linalg.svd(shapes, full_matrices=False)
-    if sizes[1] > ONE_DIRECTION * sizes[0]:
+    if sizes[0] <= ONE_DIRECTION * whole:
+        raise _no_sliding()
+    if (sizes[1:] > ONE_DIRECTION * sizes[0]).any():
         hint = "friction acts along one direction: say which, such as sliding = [1, 0, 0]"
         what = "the node can move along the obstacle in more than one direction"
         raise InputError(what, key="sliding", hint=hint)

@@ -175,6 +175,7 @@ impl Walk {
                     level = level.saturating_sub(1);
                 }
                 Outcome::Found(crossing) => {
+                    certificate.cells += 1 + ((crossing.time - time) / width) as usize;
                     return (crossing.time < path.limit).then_some(crossing);
                 }
                 Outcome::Halve(cell) => {
