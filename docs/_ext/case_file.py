@@ -1,7 +1,7 @@
 """Directives ``case-file-keys`` and ``study-file-keys``: every key, from the JSON schema."""
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar
 
 from docutils import nodes
 from sphinx.application import Sphinx
@@ -17,9 +17,7 @@ Schema = dict[str, Any]
 class FileKeys(SphinxDirective):
     """One section a table of the file, with its keys."""
 
-    def schema(self) -> Schema:
-        """Return the schema of the file."""
-        raise NotImplementedError
+    schema: ClassVar[Callable[[], Schema]]
 
     def run(self) -> list[nodes.Node]:
         """Write the sections as Markdown and let the page's parser read them."""
@@ -30,17 +28,13 @@ class FileKeys(SphinxDirective):
 class CaseFileKeys(FileKeys):
     """Those of a case file."""
 
-    def schema(self) -> Schema:
-        """Return the schema of case files."""
-        return case_schema()
+    schema = staticmethod(case_schema)
 
 
 class StudyFileKeys(FileKeys):
     """Those of a study file."""
 
-    def schema(self) -> Schema:
-        """Return the schema of study files."""
-        return study_schema()
+    schema = staticmethod(study_schema)
 
 
 class Reference:
