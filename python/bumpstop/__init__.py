@@ -102,6 +102,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.spring import Spring
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
+    from bumpstop.study.batch import batch
     from bumpstop.study.continuation import continuation
     from bumpstop.study.convergence import Convergence, converge
     from bumpstop.study.load import load_study
@@ -204,6 +205,7 @@ __all__ = [
     "WorstCase",
     "ZenerDamper",
     "amplitude_spectrum",
+    "batch",
     "bifurcation",
     "campbell",
     "complex_modes",
@@ -335,6 +337,7 @@ _HOME = {
     "WorstCase": "study.worst",
     "ZenerDamper": "laws.zener_damper",
     "amplitude_spectrum": "post.signals",
+    "batch": "study.batch",
     "bifurcation": "post.poincare",
     "campbell": "modal.rotor",
     "complex_modes": "modal.oscillation",

@@ -253,3 +253,52 @@ def stability_limit(
     parameters: Mapping[str, float] | None = None,
 ) -> float:
     """Largest stable step of a fixed-step method with every stop closed, in s; it may be inf."""
+
+class Quantity:
+    """Something that is kept of each run of a batch: one number, or one an instant."""
+
+    @staticmethod
+    def motion(row: Array, derivative: int, times: Array) -> Quantity:
+        """Displacement (0), velocity (1) or acceleration (2) of ``row . q``."""
+    @staticmethod
+    def law(law: int, what: str, times: Array) -> Quantity:
+        """``distance`` in m, its ``rate`` in m/s or the ``force`` in N of a law."""
+    @staticmethod
+    def energy(term: str, times: Array) -> Quantity:
+        """Return a term of the ledger, in J."""
+    @staticmethod
+    def impacts(law: int, column: str, statistic: str | None = None, impact: int = 0) -> Quantity:
+        """Return a number of an impact, counted from 0, or a statistic of those of all.
+
+        ``maximum``, ``minimum``, ``peak`` or ``last``; NaN where there is none.
+        """
+    @staticmethod
+    def impact_count(law: int | None = None) -> Quantity:
+        """How many impacts there are on a law, or on all."""
+    @staticmethod
+    def of_run(name: str) -> Quantity:
+        """``events``, ``steps``, ``energy_residual``, ``motion_error``, ``missed_penetration``."""
+
+def batch(
+    system: System,
+    laws: Sequence[Law],
+    forcing: Forcing,
+    displacement: Array,
+    velocity: Array,
+    duration: float,
+    quantities: Sequence[Quantity],
+    runs: int,
+    stops: Sequence[tuple[int, str, Array]],
+    displacements: tuple[bool, Array] | None = None,
+    velocities: tuple[bool, Array] | None = None,
+    loads: Array | None = None,
+    threads: int = 1,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Array, list[tuple[int, str]]]:
+    """Make many runs by the exact method; releases the GIL.
+
+    ``stops`` are (law, ``gap``, ``stiffness`` or ``damping``, one value a run), all of plain
+    stops. ``displacements`` and ``velocities`` are (True, factors of those of the problem) or
+    (False, a number for each mode of each run, run by run); ``loads`` are factors. Returns the
+    numbers of each run, (run, number), and those runs that failed, each with its message.
+    """

@@ -207,7 +207,7 @@ class Response:
         if quantity in MOTIONS:
             node, dof = map(str, target)
             row, derivative = self.problem.basis.row(node, dof), MOTIONS.index(quantity)
-            own = along(row, self.motion(derivative, times))
+            own = self._along(row, derivative, times)
             if not self.problem.supports_move:
                 return own
             from bumpstop.carried import carried_node
@@ -467,10 +467,17 @@ class Response:
         forces = self.history.law_forces(self.law_index(law), self._instants(times))
         return forces[:, 1].copy() if forces.shape[1] > 1 else np.zeros(len(forces))
 
+    def _along(self, row: FloatArray, derivative: int, times: ArrayLike | None) -> FloatArray:
+        """Return a row (N,) times the modal motion."""
+        if MOTIONS[derivative] == "acceleration":
+            # From the equations of motion, which have the laws' forces to the last digit.
+            return along(row, self.motion(derivative, times))
+        return self.history.project(row, self._instants(times), derivative)
+
     def _gauge_strain(self, name: str, times: ArrayLike | None) -> FloatArray:
         gauges = {known.name: known for known in self.problem.gauges}
         gauge = gauges[one_of("gauge", name, tuple(gauges))]
-        own = along(self.problem.basis.gauge_row(gauge), self.motion(0, times))
+        own = self._along(self.problem.basis.gauge_row(gauge), 0, times)
         if not self.problem.supports_move:
             return own
         from bumpstop.carried import carried_gauge

@@ -300,6 +300,18 @@ pub enum Error {
         /// Length of the run, in s.
         duration: f64,
     },
+    /// There is no law of this number.
+    #[error("there is no law {law}")]
+    NoLaw {
+        /// The number, from 0.
+        law: usize,
+    },
+    /// A number of a stop is asked for that is none, or rubs.
+    #[error("law {law} is no plain stop, whose numbers may vary")]
+    NoStop {
+        /// The law's number.
+        law: usize,
+    },
     /// An eigenvalue iteration failed.
     #[error("the eigenvalue iteration did not converge")]
     Eigenvalues,

@@ -5,6 +5,7 @@
 //! through time and leaves a [`history::History`] behind, which can be sampled anywhere and
 //! keeps the energy ledger. Nothing here knows nodes, units or files.
 
+pub mod batch;
 pub mod components;
 mod dynamics;
 pub mod energy;

@@ -59,7 +59,7 @@ impl History {
     }
 }
 
-fn derivative_numbered(number: usize) -> PyResult<Derivative> {
+pub(crate) fn derivative_numbered(number: usize) -> PyResult<Derivative> {
     match number {
         0 => Ok(Derivative::Displacement),
         1 => Ok(Derivative::Velocity),

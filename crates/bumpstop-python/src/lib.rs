@@ -1,5 +1,6 @@
 //! Python bindings of the core: convert, release the GIL, call, convert back.
 
+mod batch;
 mod history;
 mod modes;
 mod parts;
@@ -36,6 +37,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<parts::HertzStop>()?;
     module.add_class::<parts::ZenerDamper>()?;
     module.add_class::<history::History>()?;
+    module.add_class::<batch::Quantity>()?;
     module.add_class::<sparse::SparseFactor>()?;
     module.add_function(wrap_pyfunction!(modes::symmetric_modes, module)?)?;
     module.add_function(wrap_pyfunction!(modes::sparse_modes, module)?)?;
@@ -45,5 +47,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sparse::component_labels, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::stability_limit, module)?)?;
+    module.add_function(wrap_pyfunction!(batch::batch, module)?)?;
     Ok(())
 }

@@ -153,25 +153,25 @@ fn method_named(
     }
 }
 
-/// Tells Python how far the run is, and hears Ctrl-C, ten times a second.
-struct Reporter {
+/// Tells Python how far a run, or a batch of them, is, and hears Ctrl-C, ten times a second.
+pub(crate) struct Reporter {
     progress: Option<Py<PyAny>>,
-    duration: f64,
+    whole: f64,
     last: Instant,
-    raised: Option<PyErr>,
+    pub(crate) raised: Option<PyErr>,
 }
 
 impl Reporter {
-    fn new(progress: Option<Py<PyAny>>, duration: f64) -> Self {
+    pub(crate) fn new(progress: Option<Py<PyAny>>, whole: f64) -> Self {
         Self {
             progress,
-            duration,
+            whole,
             last: Instant::now(),
             raised: None,
         }
     }
 
-    fn report(&mut self, time: f64) -> bool {
+    pub(crate) fn report(&mut self, reached: f64) -> bool {
         if self.last.elapsed() < BETWEEN_REPORTS {
             return true;
         }
@@ -179,7 +179,7 @@ impl Reporter {
         let told = Python::attach(|py| {
             py.check_signals()?;
             match &self.progress {
-                Some(progress) => progress.call1(py, (time / self.duration,)).map(drop),
+                Some(progress) => progress.call1(py, (reached / self.whole,)).map(drop),
                 None => Ok(()),
             }
         });

@@ -11,16 +11,19 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bumpstop.errors import BumpstopError, InputError, ModellingWarning
 from bumpstop.io.case.build import Builder
+from bumpstop.io.case.build.initial import built_initial
 from bumpstop.io.case.load import checked_tables, method_of
 from bumpstop.io.case.overrides import overridden
 from bumpstop.methods import usable_options
 from bumpstop.simulate import simulate
+from bumpstop.study.core_runs import CoreRuns, swept_in_core
 from bumpstop.study.outputs import Output
 from bumpstop.study.parameters import Level
 
@@ -101,7 +104,7 @@ class Kept:
 
 
 class Evaluator:
-    """Makes the runs of a study."""
+    """Makes the runs of a study, in the core where it can; several threads may ask for some."""
 
     def __init__(self, recipe: Recipe) -> None:
         self._recipe = recipe
@@ -111,20 +114,41 @@ class Evaluator:
         self._swept = {name.partition(".")[0] for name in recipe.names}
         needed = {*self._swept, "basis"}
         self._part = {key: each for key, each in recipe.document.items() if key in needed}
+        self._lock = Lock()  # of the builder
+        self._core: CoreRuns | None = None
+        self._asks_core = swept_in_core(recipe.names) and self._base.run is not None
 
     def kept(self, columns: Mapping[str, Sequence[Level]]) -> Kept:
         """Return what is kept of the runs with these values of the parameters.
 
         A run that fails does not keep the others from being made.
         """
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ModellingWarning)  # a line a run helps nobody
-            return self._kept(columns)
-
-    def _kept(self, columns: Mapping[str, Sequence[Level]]) -> Kept:
         number = len(next(iter(columns.values())))
         found = Kept.failed(self._recipe.outputs, [""] * number)
-        for run in range(number):
+        left: Sequence[int] = range(number)
+        core = self._core_runs(columns)
+        if core is not None:
+            shapes = {name: each.shape for name, each in self._recipe.outputs.items()}
+            made = core.made(columns, shapes, self._state)
+            found.values.update(made.values)
+            found.status[made.good] = GOOD
+            left = np.flatnonzero(~made.good).tolist()
+        if left:
+            with self._lock, warnings.catch_warnings():
+                warnings.simplefilter("ignore", ModellingWarning)  # a line a run helps nobody
+                self._make(columns, left, found)
+        return found
+
+    def runs_in_core(self, columns: Mapping[str, Sequence[Level]]) -> bool:
+        """Tell whether the core makes such runs: then threads make them, and no processes."""
+        plain = all(np.asarray(levels).dtype.kind in "iuf" for levels in columns.values())
+        return plain and self._core_runs(columns) is not None
+
+    def _make(
+        self, columns: Mapping[str, Sequence[Level]], runs: Sequence[int], found: Kept
+    ) -> None:
+        """Make some of the runs one by one."""
+        for run in runs:
             try:
                 values = self._values({name: column[run] for name, column in columns.items()})
             except Exception as error:  # also a mistake of ours: the other runs go on
@@ -133,7 +157,35 @@ class Evaluator:
             for name, value in values.items():
                 found.values[name][run] = value
             found.status[run] = GOOD
-        return found
+
+    def _core_runs(self, columns: Mapping[str, Sequence[Level]]) -> CoreRuns | None:
+        """Return what makes runs in the core; None where it cannot, or none of these are sound."""
+        if not self._asks_core:
+            return None
+        with self._lock, np.errstate(over="raise", invalid="raise", divide="raise"):
+            number = len(next(iter(columns.values())))
+            for run in range(number if self._core is None else 0):
+                try:
+                    changes = {name: column[run] for name, column in columns.items()}
+                    _, problem, tables = self.built(changes)
+                    if problem is None or tables.run is None:
+                        continue
+                    if tables.initial is None or tables.initial.static is None:
+                        method = method_of(tables.run).name
+                        self._core = CoreRuns.of(problem, method, self._recipe.outputs)
+                except (BumpstopError, ArithmeticError):
+                    continue
+                self._asks_core = self._core is not None
+                break
+            return self._core
+
+    def _state(self, changes: Mapping[str, Level]) -> tuple[FloatArray, FloatArray]:
+        """Return the modal state at the start, for other values in the table of it."""
+        with self._lock, np.errstate(over="raise", invalid="raise", divide="raise"):
+            tables = checked_tables(overridden(self._part, dict(changes)))
+            initial = built_initial(tables.initial, (), ())
+            assert initial is not None
+            return initial.modal_state(self._builder.basis(self._base))
 
     def built(self, changes: Mapping[str, Level]) -> tuple[ModalBasis, Problem | None, CaseFile]:
         """Return modes and problem of a run, and the tables that they are made of.

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from queue import Empty, Queue, SimpleQueue
@@ -62,12 +63,18 @@ def evaluated(
     task_of
         Tells the runs of a chunk, when its turn has come.
     workers
-        How many processes; with one, the runs are made in this process.
+        How many processes, or threads of this one where the core makes the runs by itself;
+        with one, the runs are made in this process.
     """
+    evaluator = Evaluator(recipe) if chunks else None
+    if evaluator is None:
+        return
     if workers == 1 or len(chunks) < 2:
-        evaluator = Evaluator(recipe)
         for task in map(task_of, chunks):
             yield Done(task, evaluator.kept(task.columns))
+        return
+    if evaluator.runs_in_core(task_of(chunks[0]).columns):
+        yield from _by_threads(evaluator, chunks, task_of, workers)
         return
     todo: SimpleQueue[int] = SimpleQueue()
     for chunk in chunks:
@@ -85,6 +92,30 @@ def evaluated(
         for feeder in feeders:
             feeder.end()
         _drain(done, feeders)
+
+
+def _by_threads(
+    evaluator: Evaluator, chunks: Sequence[int], task_of: Callable[[int], Task], workers: int
+) -> Iterator[Done]:
+    """Yield what is kept of each chunk, made by threads; the core works without the GIL."""
+    from concurrent.futures import Future, ThreadPoolExecutor
+
+    def made(chunk: int) -> Done:
+        task = task_of(chunk)
+        return Done(task, evaluator.kept(task.columns))
+
+    pool = ThreadPoolExecutor(workers)
+    waiting: deque[Future[Done]] = deque()
+    try:
+        for chunk in chunks:
+            waiting.append(pool.submit(made, chunk))
+            # Bounded, so that results do not pile up where the disk is slower.
+            if len(waiting) > 2 * workers:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def _drain(done: Queue[Done | Exception], feeders: Sequence[_Feeder]) -> None:

@@ -11,6 +11,7 @@ mod harmonic;
 mod table;
 
 mod motion;
+mod scaled;
 
 pub use harmonic::Harmonic;
 pub use table::{Beyond, Table};

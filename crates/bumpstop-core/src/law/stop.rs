@@ -34,27 +34,68 @@ impl Stop {
     /// When a number is not finite, the stiffness not positive or the damping negative.
     pub fn new(row: Vec<f64>, gap: f64, stiffness: f64, damping: f64) -> Result<Self> {
         check_finite("the stop's row", &row)?;
+        let mut stop = Self {
+            rows: [row],
+            obstacle: Plane { gap: 0.0 },
+            stiffness: 0.0,
+            damping: 0.0,
+        };
+        stop.set_gap(gap)?;
+        stop.set_stiffness(stiffness)?;
+        stop.set_damping(damping)?;
+        Ok(stop)
+    }
+
+    /// Takes another gap, in m.
+    ///
+    /// # Errors
+    /// When it is not finite.
+    pub fn set_gap(&mut self, gap: f64) -> Result<()> {
         check_finite("the stop's gap", &[gap])?;
+        self.obstacle.gap = gap;
+        Ok(())
+    }
+
+    /// Takes another stiffness, in N/m.
+    ///
+    /// # Errors
+    /// When it is not finite and positive.
+    pub fn set_stiffness(&mut self, stiffness: f64) -> Result<()> {
         check_finite("the stop's stiffness", &[stiffness])?;
-        check_finite("the stop's damping", &[damping])?;
         if stiffness <= 0.0 {
             return Err(Error::NotPositive {
                 what: "the stop's stiffness",
                 value: stiffness,
             });
         }
+        self.stiffness = stiffness;
+        Ok(())
+    }
+
+    /// Takes another damping, in N s/m.
+    ///
+    /// # Errors
+    /// When it is not finite or negative.
+    pub fn set_damping(&mut self, damping: f64) -> Result<()> {
+        check_finite("the stop's damping", &[damping])?;
         if damping < 0.0 {
             return Err(Error::Negative {
                 what: "the stop's damping",
                 value: damping,
             });
         }
-        Ok(Self {
-            rows: [row],
-            obstacle: Plane { gap },
-            stiffness,
-            damping,
-        })
+        self.damping = damping;
+        Ok(())
+    }
+
+    /// Stiffness in N/m.
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// Damping in N s/m.
+    pub fn damping(&self) -> f64 {
+        self.damping
     }
 
     /// Distance at rest, in m.
