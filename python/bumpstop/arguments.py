@@ -70,12 +70,14 @@ def not_negative(key: str, value: object) -> float:
     return number
 
 
-def count(key: str, value: object, least: int = 1) -> int:
-    """Return a whole number that is ``least`` or above."""
+def count(key: str, value: object, least: int = 1, most: int | None = None) -> int:
+    """Return a whole number from ``least`` to ``most``."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise InputError("must be a whole number", key=key, value=value)
     if value < least:
         raise InputError(f"must be {least} or more", key=key, value=value)
+    if most is not None and int(value) > most:
+        raise InputError(f"must be at most {most:,}", key=key, value=value)
     return int(value)
 
 

@@ -160,6 +160,11 @@ class Problem:
         return times
 
     @property
+    def stop_names(self) -> list[str]:
+        """Names of the laws that are stops: those that impacts, statistics and wear are of."""
+        return [law.name for law in self.laws if law.table == "stops"]
+
+    @property
     def supports_move(self) -> bool:
         """Whether some load moves supports."""
         # By a name that only those have, so that they are not imported where nobody has any.

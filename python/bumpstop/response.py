@@ -238,6 +238,16 @@ class Response:
         names = [law.name for law in self.problem.laws]
         return names.index(one_of("stop", stop, names))
 
+    def stop_index(self, stop: str) -> int:
+        """Return the number of a stop in the core, counted from 0 among all laws.
+
+        Raises
+        ------
+        InputError
+            If there is no such stop.
+        """
+        return self.law_index(one_of("stop", stop, self.problem.stop_names))
+
     def energy_terms(self, times: ArrayLike | None = None) -> dict[str, FloatArray]:
         """Return the energy ledger as plain arrays (time,), in J; see `energy`."""
         from bumpstop.post.energy import ledger

@@ -110,6 +110,63 @@ def test_a_threshold_means_nothing_for_rigid_stops() -> None:
         bs.contact_impacts(run, "wall", threshold=1.0)
 
 
+def thrown(damping: float, *, method: str = "exact", **options: Any) -> bs.Response:
+    """A free mass of 1 kg hits a stop with a damper, once."""
+    basis = bs.ModalBasis.from_modes(frequency=[0.0], shapes={("P", "dx"): [1.0]})
+    wall = bs.Stop(
+        "wall", node="P", normal=(1, 0, 0), gap=0.1, stiffness=STIFFNESS, damping=damping
+    )
+    start = bs.ModalState(velocity=[-SPEED])
+    problem = bs.Problem(basis, laws=[wall], initial=start, duration=0.5)
+    return bs.simulate(problem, method=method, **options)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.5, 0.95])
+def test_an_impact_ends_where_the_damper_holds_the_push_back(ratio: float) -> None:
+    """The force k d + c d' of a decaying sine vanishes before the gap opens."""
+    response = thrown(2.0 * ratio * OMEGA)
+    root = math.sqrt(1.0 - ratio**2)
+    loaded = math.atan2(2.0 * ratio * root, 2.0 * ratio**2 - 1.0) / (OMEGA * root)
+    counted = bs.contact_impacts(response, "wall")
+    assert counted["duration"][0] == pytest.approx(loaded, rel=1e-12)
+    assert counted["contact_time"][0] == pytest.approx(loaded, rel=1e-12)
+    assert counted["peak_force"][0] == response.impacts["peak_force"][0]
+    found = bs.contact_statistics(response, "wall")
+    assert found["contact_fraction"] == pytest.approx(loaded / 0.5, rel=1e-12)
+    momentum = float(response.sample("velocity", "P", "dx", times=[0.5])[0]) + SPEED
+    assert found["mean_force_in_contact"] == pytest.approx(momentum / loaded, rel=1e-10)
+
+
+@pytest.mark.parametrize("method", ["newmark", "dop853"])
+def test_other_methods_end_impacts_there_too(method: str) -> None:
+    options = {"dt": 1e-5} if method == "newmark" else {}
+    exact = bs.contact_impacts(thrown(100.0), "wall")
+    other = bs.contact_impacts(thrown(100.0, method=method, **options), "wall")
+    assert_allclose(other["duration"], exact["duration"], rtol=1e-4)
+
+
+def test_a_stop_that_pushes_again_while_the_gap_is_closed() -> None:
+    """A load presses a soft damped stop to and fro: two pushes in one closing of the gap."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[1.0, 9.3], damping=0.02, shapes={("P", "dx"): [1.0, 1.0]}
+    )
+    wall = bs.Stop("wall", node="P", normal=(1, 0, 0), gap=0.01, stiffness=149.0, damping=12.9)
+    load = bs.NodalForce("l", node="P", force=(600.0, 0, 0), time=bs.Harmonic(7.29, cosine=1.0))
+    push = bs.NodalForce("p", node="P", force=(-50.0, 0, 0))
+    problem = bs.Problem(basis, laws=[wall], loads=[load, push], duration=3.0, sample=1e-4)
+    response = bs.simulate(problem)
+    counted = bs.contact_impacts(response, "wall")
+    force = response.sample("stop_force", "wall")
+    sampled = bs.sampled_impacts(response.times, force)
+    assert len(counted) == len(sampled) > len(response.impacts)
+    for name in ("start", "end", "contact_time", "peak_time"):
+        assert_allclose(counted[name], sampled[name], atol=1.1e-4, err_msg=name)
+    # One peak is that of the damper at the closing itself, between two samples.
+    assert_allclose(counted["peak_force"], sampled["peak_force"], rtol=2e-3)
+    assert_allclose(counted["impulse"], sampled["impulse"], rtol=1e-2, atol=1e-4)
+    assert counted["impulse"].sum() == pytest.approx(response.impacts["impulse"].sum(), rel=1e-12)
+
+
 class TestSamples:
     times = np.arange(0.0, 2.0, 1e-4)
 

@@ -1,6 +1,7 @@
 """Contact statistics against closed forms and against sums over samples."""
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import bumpstop as bs
+from bumpstop.post.references import Reference
 from bumpstop.quantities import COUNTED_IMPACTS, STATISTICS
 
 MASS, WEIGHT, STIFFNESS, HEIGHT = 2.0, 19.62, 5e4, 0.3
@@ -117,6 +119,39 @@ def test_uncertainty_is_the_scatter_of_the_blocks(rattle: bs.Response) -> None:
     assert math.isnan(halves[0].uncertainty["mean_force"])
 
 
+@pytest.mark.parametrize("blocks", [5, 20])
+def test_errors_of_sums_are_those_of_their_means(rattle: bs.Response, blocks: int) -> None:
+    found = bs.contact_statistics(rattle, "stop", blocks=blocks)
+    for total, mean in (("impact_count", "impact_rate"), ("contact_time", "contact_fraction")):
+        assert found[total] == pytest.approx(found[mean] * 8.0, rel=1e-12)
+        error = found.uncertainty[mean] * 8.0
+        assert found.uncertainty[total] == pytest.approx(error, rel=1e-10), total
+    assert math.isnan(found.uncertainty["largest_force"])
+
+
+def test_the_largest_force_of_a_contact_that_began_before() -> None:
+    """A stop pressed all the time, by a static force and a decaying swing about it."""
+    basis = bs.ModalBasis.from_modes(frequency=[5.0], damping=0.02, shapes={("P", "dx"): [1.0]})
+    stop = bs.Stop("stop", node="P", normal=(-1, 0, 0), gap=-1e-2, stiffness=1e4)
+    push = bs.NodalForce("push", node="P", force=(300.0, 0, 0))
+    problem = bs.Problem(basis, laws=[stop], loads=[push], duration=5.0)
+    response = bs.simulate(problem)
+    found = bs.contact_statistics(response, "stop", start=1.0)
+    assert found["contact_fraction"] == 1.0
+    assert found["impact_count"] == 0
+    # x = X (1 - e^(-d t) (cos + d/w sin)), with peaks at odd multiples of pi / w.
+    square, decay = (10.0 * math.pi) ** 2 + 1e4, 0.02 * 10.0 * math.pi
+    rest, omega = (300.0 - 100.0) / square, math.sqrt(square - decay**2)
+    peak = (2.0 * math.ceil(omega / math.pi / 2.0 - 0.5) + 1.0) * math.pi / omega
+    largest = 1e4 * rest * (1.0 + math.exp(-decay * peak)) + 100.0
+    edges = np.linspace(1.0, 5.0, 11)
+    assert found["largest_force"] == pytest.approx(largest, rel=1e-10)
+    assert np.isfinite(found.blocks["largest_force"]).all()
+    for start, end, block in zip(edges, edges[1:], found.blocks["largest_force"], strict=False):
+        force = response.sample("stop_force", "stop", times=np.linspace(start, end, 4001))
+        assert block == pytest.approx(force.max(), rel=1e-5)
+
+
 def test_impulses_are_those_of_the_impacts(rattle: bs.Response) -> None:
     """The integral by quadrature and the core's closed form are two ways to one number."""
     found = bs.contact_statistics(rattle, "stop", blocks=1)
@@ -131,6 +166,38 @@ def test_histogram(rattle: bs.Response) -> None:
     assert histogram.values.tolist() == counts.tolist()
     assert histogram["from"].values.tolist() == edges[:-1].tolist()
     assert histogram["closing_speed"].attrs["units"] == "m/s"
+
+
+def test_values_that_are_the_same_are_one_class() -> None:
+    """A ball that rebounds without loss for long: its speeds differ by rounding."""
+    for duration in (10.0 * PERIOD, 30.0 * PERIOD):
+        found = bs.contact_statistics(bouncing(duration), "floor")
+        histogram = found.histogram("closing_speed")
+        assert histogram.values.tolist() == [found["impact_count"]]
+        assert_allclose([histogram["from"][0], histogram["to"][0]], SPEED, rtol=1e-12)
+        assert bs.plot(histogram) is not None
+
+
+def test_what_is_no_stop_has_no_statistics() -> None:
+    basis = bs.ModalBasis.from_modes(frequency=[5.0], shapes={("P", "dx"): [1.0]})
+    spring = bs.SpringLaw(
+        "spring", node="P", direction=(1, 0, 0), stiffness=(1e3, 2e3), breaks=(0,)
+    )
+    start = bs.ModalState(velocity=[0.5])
+    run = bs.simulate(bs.Problem(basis, laws=[spring], initial=start, duration=1.0))
+    asked: list[Callable[[], object]] = [
+        lambda: bs.contact_statistics(run, "spring"),
+        lambda: bs.contact_impacts(run, "spring"),
+        lambda: bs.wear_work(run, "spring"),
+        lambda: bs.impact_section(run, "spring"),
+        lambda: Reference(
+            quantity="mean_force", stop="spring", values=[1.0], tolerance=0.1
+        ).check_target(run.problem),
+    ]
+    for ask in asked:
+        with pytest.raises(bs.InputError) as caught:
+            ask()
+        assert caught.value.key == "stop"
 
 
 def test_tables_and_blocks_have_units(rattle: bs.Response) -> None:
@@ -174,6 +241,8 @@ def test_a_stop_that_is_never_hit() -> None:
         ({"end": 1e6}, "end"),
         ({"blocks": 0}, "blocks"),
         ({"classes": 0}, "classes"),
+        ({"blocks": 10**12}, "blocks"),
+        ({"classes": 10**12}, "classes"),
     ],
 )
 def test_refuses(ball: bs.Response, options: dict[str, Any], key: str) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from bumpstop.arguments import FloatArray, not_negative
 from bumpstop.errors import InputError
 from bumpstop.post.impacts import impacts_of
+from bumpstop.post.peaks import largest_forces
 from bumpstop.post.quadrature import integrals, kinks
+from bumpstop.post.spans import FREE, Spans, cut_spans, state_spans
 from bumpstop.quantities import COUNTED_IMPACTS
 
 if TYPE_CHECKING:
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
 
     from bumpstop.response import Response
 
-__all__ = ["Spans", "contact_impacts", "counted_impacts", "labelled_columns", "loaded_spans"]
+__all__ = ["contact_impacts", "counted_impacts", "labelled_columns", "loaded_spans"]
 
 Index: TypeAlias = NDArray[np.intp]
 GRID = 65
@@ -28,22 +30,15 @@ BISECTIONS = 54
 """Halvings of a step of that grid: what is left is rounding."""
 
 
-class Spans(NamedTuple):
-    """Intervals in which the force of a stop exceeds a threshold, in time order."""
-
-    starts: FloatArray
-    """In s, (n,)."""
-    ends: FloatArray
-    """In s, (n,); the end of the run where the stop is still loaded then."""
-
-
 def contact_impacts(
     response: Response, stop: str, *, threshold: float = 0.0, rest: float = 0.0
 ) -> pd.DataFrame:
     """Return the impacts on a stop as statistics count them.
 
     An impact begins when the force exceeds the threshold and ends when it is below it again.
-    Where it exceeds it anew within the rest time, that is a rebound of the same impact.
+    Where it exceeds it anew within the rest time, that is a rebound of the same impact. The
+    damper of a stop may hold back its push before the gap opens: without threshold an impact
+    ends there, and where the stop pushes again in the same closing of its gap, one begins.
 
     Parameters
     ----------
@@ -62,7 +57,8 @@ def contact_impacts(
     pandas.DataFrame
         ``start end duration contact_time rebounds closing_speed peak_time peak_force impulse``,
         units in its ``attrs``. The impulse is that of the force while it exceeds the threshold;
-        ``end`` and ``duration`` are NaN while the last one lasts.
+        the closing speed is that at the start, negative where the gap opens then; ``end`` and
+        ``duration`` are NaN while the last one lasts.
 
     Raises
     ------
@@ -96,17 +92,10 @@ def counted_impacts(
     response: Response, stop: str, *, threshold: float = 0.0, rest: float = 0.0
 ) -> dict[str, FloatArray]:
     """Return the columns of `contact_impacts` as plain arrays."""
+    law = response.stop_index(stop)
     spans = loaded_spans(response, stop, threshold)
-    law = response.law_index(stop)
-    contacts = impacts_of(response, law)
     first = _firsts(spans, not_negative("rest", rest))
-    if threshold == 0.0:
-        peaks, peak_times = contacts["peak_force"], contacts["peak_time"]
-        impulses, speeds = contacts["impulse"], contacts["closing_speed"]
-    else:
-        peaks, peak_times = _peaks(response, law, spans)
-        impulses = integrals_between(response, law, spans)[:, 0]
-        speeds = -response.history.law_motion(law, spans.starts)[1]
+    peaks, peak_times, impulses, speeds = _told(response, law, spans, threshold)
     last = np.append(first[1:], len(spans.starts)) - 1 if len(first) else first
     ends = spans.ends[last].copy()
     unfinished = _force(response, law, np.array([response.problem.duration]))[0] > threshold
@@ -135,12 +124,15 @@ def loaded_spans(response: Response, stop: str, threshold: float) -> Spans:
     InputError
         If there is no such stop, or the threshold is negative.
     """
-    law = response.law_index(stop)
+    law = response.stop_index(stop)
     not_negative("threshold", threshold)
     contacts = impacts_of(response, law)
     ends = np.where(np.isnan(contacts["end"]), response.problem.duration, contacts["end"])
     if threshold == 0.0:
-        return Spans(contacts["start"], ends)
+        # Impacts on rigid stops take no time: their states tell of rests alone.
+        if hasattr(response.problem.laws[law], "restitution"):
+            return Spans(contacts["start"], ends)
+        return state_spans(response, law, lambda state: state not in FREE)
     if np.isinf(contacts["peak_force"]).any():
         what = "means nothing for a rigid stop, whose impacts have no finite force"
         raise InputError(what, key="threshold", value=threshold)
@@ -153,6 +145,32 @@ def loaded_spans(response: Response, stop: str, threshold: float) -> Spans:
         found.append(_crossings(response, law, marks, threshold))
     joined = np.concatenate([np.empty((0, 2)), *found])
     return Spans(joined[:, 0], joined[:, 1])
+
+
+def _told(
+    response: Response, law: int, spans: Spans, threshold: float
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return peaks in N, their times in s, impulses in N s and closing speeds in m/s, (n,) each.
+
+    Of a whole contact they are the core's; of its parts they are found here.
+    """
+    contacts = impacts_of(response, law)
+    owner = np.searchsorted(contacts["start"], spans.starts, side="right") - 1
+    whole = np.bincount(owner, minlength=1)[owner] == 1
+    whole &= threshold == 0.0
+    names = ("peak_force", "peak_time", "impulse", "closing_speed")
+    told = [contacts[name][owner] for name in names]
+    parts = Spans(spans.starts[~whole], spans.ends[~whole])
+    if len(parts.starts):
+        found = [
+            *largest_forces(response, law, parts),
+            integrals_between(response, law, parts)[:, 0],
+            -response.history.law_motion(law, parts.starts)[1],
+        ]
+        for column, values in zip(told, found, strict=True):
+            column[~whole] = values
+    peaks, times, impulses, speeds = told
+    return peaks, times, impulses, speeds
 
 
 def integrals_between(response: Response, law: int, spans: Spans) -> FloatArray:
@@ -170,27 +188,11 @@ def integrals_of(
 ) -> FloatArray:
     """Return integrals (n, K) over intervals of what has kinks where the response has."""
     cuts = kinks(response)
-    starts, ends, owner = _cut(spans, cuts)
+    (starts, ends), owner = cut_spans(spans, cuts)
     pieces = integrals(function, starts, ends, tolerance)
     total = np.zeros((len(spans.starts), pieces.shape[1]))
     np.add.at(total, owner, pieces)
     return total
-
-
-def _cut(spans: Spans, cuts: FloatArray) -> tuple[FloatArray, FloatArray, Index]:
-    """Return the pieces of intervals between cuts, and which interval each is of."""
-    low = np.searchsorted(cuts, spans.starts, side="right")
-    high = np.maximum(np.searchsorted(cuts, spans.ends, side="left"), low)
-    inner = high - low
-    owner = np.repeat(np.arange(len(inner)), inner + 1)
-    last = np.cumsum(inner + 1)
-    first = last - (inner + 1)
-    within = np.arange(len(owner)) - first[owner]
-    index = low[owner] + within
-    padded = np.append(cuts, np.nan)
-    starts = np.where(within == 0, spans.starts[owner], padded[index - 1])
-    ends = np.where(within == inner[owner], spans.ends[owner], padded[index])
-    return starts, ends, owner
 
 
 def _crossings(response: Response, law: int, marks: FloatArray, threshold: float) -> FloatArray:
@@ -212,21 +214,6 @@ def _crossings(response: Response, law: int, marks: FloatArray, threshold: float
 
 def _inside(cuts: FloatArray, start: float, end: float) -> FloatArray:
     return cuts[np.searchsorted(cuts, start, "right") : np.searchsorted(cuts, end, "left")]
-
-
-def _peaks(response: Response, law: int, spans: Spans) -> tuple[FloatArray, FloatArray]:
-    """Return the largest force of each interval, and when, by ever finer grids."""
-    low, high = spans.starts.copy(), spans.ends.copy()
-    part = np.linspace(0.0, 1.0, GRID)
-    best, force = low.copy(), np.zeros_like(low)
-    for _ in range(4):
-        times = low[:, np.newaxis] + (high - low)[:, np.newaxis] * part
-        values = _force(response, law, times.ravel()).reshape(times.shape)
-        at = values.argmax(axis=1)
-        row = np.arange(len(low))
-        best, force = times[row, at], values[row, at]
-        low, high = times[row, np.maximum(at - 1, 0)], times[row, np.minimum(at + 1, GRID - 1)]
-    return force, best
 
 
 def _firsts(spans: Spans, rest: float) -> Index:

@@ -99,7 +99,7 @@ def impact_section(
     """
     import pandas as pd
 
-    contacts = impacts_of(response, response.law_index(stop))
+    contacts = impacts_of(response, response.stop_index(stop))
     late = contacts["start"] >= not_negative("start", start)
     columns = {"time": contacts["start"][late], "closing_speed": contacts["closing_speed"][late]}
     if period is not None:

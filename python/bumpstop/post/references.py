@@ -173,7 +173,8 @@ class Reference:
         if self.node is not None:
             problem.basis.row(self.node, str(self.dof))
         if self.stop is not None:
-            one_of("stop", self.stop, [law.name for law in problem.laws])
+            laws = [law.name for law in problem.laws]
+            one_of("stop", self.stop, laws if self.quantity in QUANTITIES else problem.stop_names)
         if self.gauge is not None:
             one_of("gauge", self.gauge, [gauge.name for gauge in problem.gauges])
 
@@ -355,7 +356,7 @@ def _of_run(response: Response, reference: Reference) -> tuple[FloatArray, Float
 
 
 def _of_impact(response: Response, reference: Reference) -> tuple[FloatArray, FloatArray]:
-    law = response.law_index(str(reference.stop))
+    law = response.stop_index(str(reference.stop))
     if reference.sampled:
         from bumpstop.post.sampled import samples_of
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from bumpstop.arguments import FloatArray, count, listed, one_of, pair
 from bumpstop.errors import InputError
 from bumpstop.post.contacts import integrals_of
-from bumpstop.post.wear import sliding_spans, sliding_speed, spans_within, time_window
+from bumpstop.post.spans import spans_within
+from bumpstop.post.wear import sliding_spans, sliding_speed, time_window
 from bumpstop.projection import TRANSLATIONS
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ def work_by_sector(
     total = np.zeros(sectors)
     for stop in names:
         spans = spans_within(sliding_spans(response, stop), first, last)
-        powers = _powers(response, response.law_index(stop), sector, sectors)
+        powers = _powers(response, response.stop_index(stop), sector, sectors)
         total += integrals_of(response, spans, powers, SMOOTH).sum(axis=0)
     angles = {"units": "rad", "long_name": f"angle from {axes[0]} towards {axes[1]}"}
     return xr.DataArray(
@@ -111,7 +112,7 @@ def _powers(
 
 
 def _node(response: Response, stops: Sequence[str]) -> str:
-    laws = [response.problem.laws[response.law_index(stop)] for stop in stops]
+    laws = [response.problem.laws[response.stop_index(stop)] for stop in stops]
     nodes = list(dict.fromkeys(law.coordinate.node for law in laws))
     if len(nodes) != 1:
         raise InputError("must be one or more stops at one node", key="stops", value=nodes)

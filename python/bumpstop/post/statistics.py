@@ -8,17 +8,19 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray, count, finite, not_negative, one_of
 from bumpstop.errors import InputError
 from bumpstop.post.contacts import (
-    Spans,
     counted_impacts,
     integrals_between,
     labelled_columns,
     loaded_spans,
 )
 from bumpstop.post.impacts import impacts_of
+from bumpstop.post.peaks import largest_forces
+from bumpstop.post.spans import Spans, cut_spans, spans_within
 from bumpstop.quantities import COUNTED_IMPACTS, STATISTICS
 
 if TYPE_CHECKING:
@@ -28,6 +30,13 @@ if TYPE_CHECKING:
     from bumpstop.response import Response
 
 __all__ = ["ContactStatistics", "contact_statistics"]
+
+TOTALS = ("impact_count", "contact_time")
+"""Statistics of the run that are the sums of its blocks'; the others are means, or largest."""
+SAME = 1e-12
+"""Values that differ by less, relative to their size, fall into one class."""
+MOST_BLOCKS = 10_000
+MOST_CLASSES = 100_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +53,8 @@ class ContactStatistics:
         Each statistic of `bumpstop.quantities.STATISTICS`, SI units; NaN where there is none,
         as of a mean over no impact.
     uncertainty
-        Standard error of each, from the scatter of the blocks.
+        Standard error of each, from the scatter of the blocks: of a mean, a rate or a fraction
+        s / sqrt(blocks), of a sum over the time looked at s sqrt(blocks). A largest value has none.
     edges
         Ends of the blocks in s, (blocks + 1,).
     blocks
@@ -112,7 +122,8 @@ class ContactStatistics:
         """Return how many impacts fall in each class of a column of `impacts`.
 
         Classes are equally wide, from the smallest value to the largest; values on a bound
-        count above it, the largest in the last class.
+        count above it, the largest in the last class. Values that are the same but for rounding
+        are in one class, as wide as nothing.
 
         Raises
         ------
@@ -126,7 +137,7 @@ class ContactStatistics:
         finite_ones = values[np.isfinite(values)]
         if not len(finite_ones):
             raise InputError("no impact has a finite value of it", key="column", value=column)
-        counts, edges = np.histogram(finite_ones, bins=self.classes)
+        counts, edges = _histogram(finite_ones, self.classes)
         coordinates = {
             column: (column, 0.5 * (edges[1:] + edges[:-1]), what.attributes),
             "from": (column, edges[:-1], {"units": what.units}),
@@ -157,8 +168,9 @@ def contact_statistics(
     """Return the statistics of the impacts on a stop.
 
     Mean and rms forces are integrals of the solution itself over the time in which the force
-    exceeds the threshold, not sums over samples. Means over impacts are over those that begin
-    in the time looked at, of durations over those that also end in the run.
+    exceeds the threshold, not sums over samples; the largest force is that within this time.
+    Means over impacts are over those that begin in the time looked at, of durations over those
+    that also end in the run.
 
     Parameters
     ----------
@@ -174,7 +186,9 @@ def contact_statistics(
         Number of equal blocks that this time is cut into. Their scatter gives the standard
         errors, s / sqrt(blocks) with the standard deviation s of the blocks' values (batch
         means: A. M. Law, Simulation Modeling and Analysis, section 9.5.3), which holds if
-        blocks are much longer than the memory of the motion.
+        blocks are much longer than the memory of the motion. A number of impacts and a time
+        loaded are sums of the blocks, with s sqrt(blocks); largest values grow with the time
+        looked at, and the scatter of blocks tells no error of them: NaN.
     classes
         Number of classes of histograms.
 
@@ -194,30 +208,37 @@ def contact_statistics(
     >>> found["impact_count"], round(found["mean_impulse"], 12)
     (20.0, 1.0)
     """
-    edges = _edges(response, start, end, count("blocks", blocks))
-    law = response.law_index(stop)
+    law = response.stop_index(stop)
+    edges = _edges(response, start, end, count("blocks", blocks, most=MOST_BLOCKS))
+    count("classes", classes, most=MOST_CLASSES)
     columns = counted_impacts(response, stop, threshold=threshold, rest=rest)
     inside = (columns["start"] >= edges[0]) & (columns["start"] < edges[-1])
     columns = {name: column[inside] for name, column in columns.items()}
-    works = _block_integrals(response, law, loaded_spans(response, stop, threshold), edges)
-    owner = np.searchsorted(edges, columns["start"], side="right") - 1
-    parts = [
+    spans = spans_within(loaded_spans(response, stop, threshold), edges[0], edges[-1])
+    pieces, _ = cut_spans(spans, edges)
+    works = _block_integrals(response, law, pieces, edges)
+    peaks = _block_peaks(response, law, pieces, edges)
+    owner = _blocks(columns["start"], edges)
+    one_by_one = [
         _statistics(
             {name: column[owner == number] for name, column in columns.items()},
             works[number],
-            edges[number + 1] - edges[number],
+            float(peaks[number]),
+            float(edges[number + 1] - edges[number]),
         )
         for number in range(blocks)
     ]
-    by_block = {name: np.array([part[name] for part in parts]) for name in STATISTICS}
+    by_block = {name: np.array([part[name] for part in one_by_one]) for name in STATISTICS}
     return ContactStatistics(
         stop=stop,
         columns=columns,
-        values=_statistics(columns, works.sum(axis=0), edges[-1] - edges[0]),
-        uncertainty={name: _standard_error(values) for name, values in by_block.items()},
+        values=_statistics(
+            columns, works.sum(axis=0), float(np.fmax.reduce(peaks)), float(edges[-1] - edges[0])
+        ),
+        uncertainty={name: _standard_error(name, each) for name, each in by_block.items()},
         edges=edges,
         blocks=by_block,
-        classes=count("classes", classes),
+        classes=classes,
     )
 
 
@@ -231,29 +252,50 @@ def _edges(response: Response, start: float, end: float | None, blocks: int) -> 
     return np.linspace(first, last, blocks + 1)
 
 
-def _block_integrals(response: Response, law: int, spans: Spans, edges: FloatArray) -> FloatArray:
+def _block_integrals(response: Response, law: int, pieces: Spans, edges: FloatArray) -> FloatArray:
     """Return time loaded, integral of the force and of its square in each block, (blocks, 3)."""
-    starts = np.maximum(spans.starts[np.newaxis], edges[:-1, np.newaxis])
-    ends = np.minimum(spans.ends[np.newaxis], edges[1:, np.newaxis])
-    block, span = np.nonzero(ends > starts)
-    pieces = Spans(starts[block, span], ends[block, span])
     loads = np.column_stack([pieces.ends - pieces.starts, integrals_between(response, law, pieces)])
     total = np.zeros((len(edges) - 1, 3))
-    np.add.at(total, block, loads)
+    np.add.at(total, _blocks(pieces.starts, edges), loads)
     _add_blows(total, impacts_of(response, law), edges)
     return total
+
+
+def _block_peaks(response: Response, law: int, pieces: Spans, edges: FloatArray) -> FloatArray:
+    """Return the largest force in each block, (blocks,), NaN where there is none."""
+    contacts = impacts_of(response, law)
+    owner = np.searchsorted(contacts["start"], pieces.starts, side="right") - 1
+    when = contacts["peak_time"][owner]
+    # The core knows the peak of a whole contact; those of other parts are to be found.
+    largest = contacts["peak_force"][owner]
+    other = ~((pieces.starts <= when) & (when <= pieces.ends))
+    rest = Spans(pieces.starts[other], pieces.ends[other])
+    largest[other] = largest_forces(response, law, rest)[0]
+    blows = contacts["start"][contacts["duration"] == 0.0]
+    blows = blows[(blows >= edges[0]) & (blows < edges[-1])]
+    peaks = np.full(len(edges) - 1, np.nan)
+    np.fmax.at(peaks, _blocks(pieces.starts, edges), largest)
+    np.fmax.at(peaks, _blocks(blows, edges), np.inf)
+    return peaks
+
+
+def _blocks(times: FloatArray, edges: FloatArray) -> NDArray[np.intp]:
+    """Return the block that each instant is in."""
+    return np.searchsorted(edges, times, side="right") - 1
 
 
 def _add_blows(total: FloatArray, contacts: dict[str, FloatArray], edges: FloatArray) -> None:
     """Add impulses without duration, as rigid stops give them; no rms force is finite then."""
     blows = (contacts["duration"] == 0.0) & (contacts["start"] >= edges[0])
     blows &= contacts["start"] < edges[-1]
-    block = np.searchsorted(edges, contacts["start"][blows], side="right") - 1
+    block = _blocks(contacts["start"][blows], edges)
     np.add.at(total[:, 1], block, contacts["impulse"][blows])
     total[block, 2] = np.nan
 
 
-def _statistics(columns: dict[str, FloatArray], work: FloatArray, time: float) -> dict[str, float]:
+def _statistics(
+    columns: dict[str, FloatArray], work: FloatArray, largest: float, time: float
+) -> dict[str, float]:
     loaded, impulse, square = (float(value) for value in work)
     number = len(columns["start"])
     durations = columns["duration"][~np.isnan(columns["duration"])]
@@ -272,7 +314,7 @@ def _statistics(columns: dict[str, FloatArray], work: FloatArray, time: float) -
         "largest_closing_speed": _largest(speeds),
         "mean_peak_force": _mean(peaks),
         "deviation_peak_force": _deviation(peaks),
-        "largest_force": _largest(peaks),
+        "largest_force": largest,
         "mean_impulse": _mean(impulses),
         "largest_impulse": _largest(impulses),
         "mean_force": impulse / time,
@@ -280,6 +322,14 @@ def _statistics(columns: dict[str, FloatArray], work: FloatArray, time: float) -
         "mean_force_in_contact": impulse / loaded if loaded and not rigid else math.nan,
         "rms_force_in_contact": math.sqrt(square / loaded) if loaded else math.nan,
     }
+
+
+def _histogram(values: FloatArray, classes: int) -> tuple[NDArray[np.intp], FloatArray]:
+    """Return numbers of values in classes (classes,) and the bounds of these (classes + 1,)."""
+    low, high = float(values.min()), float(values.max())
+    if high - low <= SAME * max(abs(low), abs(high)):
+        return np.array([len(values)]), np.array([low, high])
+    return np.histogram(values, bins=classes)
 
 
 def _mean(values: FloatArray) -> float:
@@ -295,7 +345,10 @@ def _largest(values: FloatArray) -> float:
     return float(np.max(values)) if len(values) else math.nan
 
 
-def _standard_error(blocks: FloatArray) -> float:
-    """Return the standard error of the mean of blocks, of those that have a value."""
+def _standard_error(name: str, blocks: FloatArray) -> float:
+    """Return the standard error of a statistic by its blocks, of those that have a value."""
+    if name.startswith("largest_"):
+        return math.nan
     known = blocks[np.isfinite(blocks)]
-    return _deviation(known) / math.sqrt(max(len(known), 1))
+    error = _deviation(known) / math.sqrt(max(len(known), 1))
+    return error * len(blocks) if name in TOTALS else error

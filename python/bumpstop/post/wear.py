@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from bumpstop.arguments import FloatArray, finite, not_negative, positive, series
 from bumpstop.errors import InputError
 from bumpstop.laws.friction import component_row, sliding_row
-from bumpstop.post.contacts import Spans, integrals_of, loaded_spans
+from bumpstop.post.contacts import integrals_of, loaded_spans
+from bumpstop.post.spans import Spans, spans_within, state_spans
 from bumpstop.projection import TRANSLATIONS
 
 if TYPE_CHECKING:
@@ -30,7 +31,6 @@ __all__ = [
     "WearWork",
     "sliding_spans",
     "sliding_speed",
-    "spans_within",
     "time_window",
     "wear",
     "wear_work",
@@ -115,7 +115,7 @@ def wear_work(
     9.000 J
     """
     first, last = time_window(response, start, end)
-    law = response.law_index(stop)
+    law = response.stop_index(stop)
     spans = spans_within(sliding_spans(response, stop), first, last)
     speed = sliding_speed(response, law)
 
@@ -340,22 +340,14 @@ def _sliding_rows(response: Response, law: Law) -> FloatArray:
 
 def sliding_spans(response: Response, stop: str) -> Spans:
     """Return when a stop is loaded and friction does not hold it."""
-    law = response.problem.laws[response.law_index(stop)]
+    law = response.stop_index(stop)
     loaded = loaded_spans(response, stop, 0.0)
     if len(loaded.starts) and not (loaded.ends > loaded.starts).any():
         what = "is rigid: no work is known of its impacts, which take no time"
         raise InputError(what, key="stop", value=stop)
-    if getattr(law, "friction", None) is None:
+    if getattr(response.problem.laws[law], "friction", None) is None:
         return loaded
-    events = response.event_table()
-    own = [n for n, name in enumerate(events["law"]) if name == stop]
-    times = [0.0, *(float(events["time"][n]) for n in own), response.problem.duration]
-    first = str(response.sample("state", stop, times=[0.0])[0])
-    states = [str(events["before"][own[0]]) if own else first]
-    states += [str(events["after"][n]) for n in own]
-    slips = np.array([state.startswith("slip") for state in states])
-    marks = np.array(times)
-    return Spans(marks[:-1][slips], marks[1:][slips])
+    return state_spans(response, law, lambda state: state.startswith("slip"))
 
 
 def time_window(response: Response, start: float, end: float | None) -> tuple[float, float]:
@@ -367,13 +359,6 @@ def time_window(response: Response, start: float, end: float | None) -> tuple[fl
         what = f"must lie after the start, {first:g} s, and within the run of {duration:g} s"
         raise InputError(what, key="end", value=last)
     return first, last
-
-
-def spans_within(spans: Spans, first: float, last: float) -> Spans:
-    """Return what of some intervals is between two instants."""
-    starts, ends = spans.starts.clip(first, last), spans.ends.clip(first, last)
-    inside = ends > starts
-    return Spans(starts[inside], ends[inside])
 
 
 def _looks(spans: Spans) -> tuple[FloatArray, FloatArray]:

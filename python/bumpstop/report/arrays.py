@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["array_figure", "plot"]
 
+THIN = 1e-2
+"""Least width of a bar, relative to where it stands."""
 KINDS = ("line", "bars", "points", "map")
 MOST_CELLS = 250_000
 """Cells of a map: more only make the page heavy."""
@@ -103,7 +105,9 @@ def _bars(array: xr.DataArray, x: Axis, y: Axis) -> dict[str, Any]:
         "<extra></extra>",
     }
     if "from" in array.coords and "to" in array.coords:
-        bars["width"] = x.scaled(array["to"].values - array["from"].values)
+        width = array["to"].values - array["from"].values
+        # A class of values that are all the same has no width of its own.
+        bars["width"] = x.scaled(np.maximum(width, THIN * np.abs(places)))
     return bars
 
 

@@ -58,7 +58,7 @@ class Result(Protocol):
 
 def check_stop(stop: str, problem: Problem) -> None:
     """Raise where a problem has no such stop."""
-    one_of("stop", stop, [law.name for law in problem.laws])
+    one_of("stop", stop, problem.stop_names)
 
 
 def check_span(start: float, end: float | None, problem: Problem) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, one_of
 from bumpstop.errors import InputError
-from bumpstop.post.results.reading import Drawn, Reading, check_span, check_stop
+from bumpstop.post.results.reading import Drawn, Reading, check_span
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -124,6 +124,6 @@ def _check_target(target: tuple[str, ...], problem: Problem) -> None:
     if quantity == "gauge":
         one_of("gauge", of[0], [gauge.name for gauge in problem.gauges])
     elif len(of) == 1:
-        check_stop(of[0], problem)
+        one_of("stop", of[0], [law.name for law in problem.laws])
     else:
         problem.basis.row(of[0], of[1])
