@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +15,7 @@ from bumpstop.loads.time import scaled
 from bumpstop.structure.model import StrainModel
 
 if TYPE_CHECKING:
+    from bumpstop.laws.coordinate import Coordinate
     from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Law, Problem
     from bumpstop.structure.forms import LinearForm
@@ -26,6 +27,7 @@ __all__ = [
     "carried_gauge",
     "carried_node",
     "carried_obstacles",
+    "carried_past",
     "check_supports",
 ]
 
@@ -134,11 +136,37 @@ def carried_obstacles(problem: Problem) -> list[tuple[TimeFunction, ...]]:
     return [tuple(_motions(law, carriers, problem)) for law in problem.laws]
 
 
+def carried_past(
+    problem: Problem,
+    law: Law,
+    coordinates: Sequence[Coordinate],
+    times: FloatArray,
+    derivative: int = 0,
+) -> FloatArray:
+    """Return how supports carry the structure past the obstacle of a law, (time, coordinates).
+
+    It is what they add to the motion that the modes tell, as seen from the obstacle: nothing
+    where this moves with them.
+    """
+    total = np.zeros((len(times), len(coordinates)))
+    model = problem.basis.model
+    for load in problem.loads:
+        if model is not None and isinstance(load, MovingSupports) and _passes(load, law):
+            field = load.field(model)
+            sizes = [float(each.nodal_force(model) @ field) for each in coordinates]
+            total += np.outer(load.travel(problem.duration).at(times, derivative), sizes)
+    return total
+
+
+def _passes(load: MovingSupports, law: Law) -> bool:
+    """Return whether a motion of supports carries the structure past an obstacle."""
+    return isinstance(load, SupportMotion) or getattr(law, "frame", "relative") == "absolute"
+
+
 def _motions(law: Law, carriers: list[MovingSupports], problem: Problem) -> Iterator[TimeFunction]:
     model = problem.basis.model
-    still = getattr(law, "frame", "relative") == "absolute"
     for load in carriers:
-        if model is None or not (still or isinstance(load, SupportMotion)):
+        if model is None or not _passes(load, law):
             continue
         field = load.field(model)
         normal = float(law.coordinate.nodal_force(model) @ field)

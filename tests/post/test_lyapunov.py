@@ -1,6 +1,7 @@
 """Lyapunov exponents against multipliers in closed form and against pairs of trajectories."""
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 
 import bumpstop as bs
 from bumpstop.arguments import FloatArray
+from bumpstop.post.lyapunov import _Tangents
 from bumpstop.report.curves import state_spans
 
 
@@ -127,6 +129,51 @@ def test_volumes_shrink_as_dampers_and_impacts_say() -> None:
     assert len(closed) > 20
     trace = float(run.problem.basis.damping.sum()) + 3.0 * float(row @ row) * sum(closed) / 60.0
     assert found.values.sum() == pytest.approx(-trace, rel=1e-9)
+
+
+def tangent_map(run: bs.Response) -> FloatArray:
+    """Return how differences of the start become those of the end, by the equations."""
+    motion = _Tangents(run)
+    total = np.eye(2 * len(run.problem.basis.omega2))
+    for step in motion.steps(0.0):
+        total = step.jump @ (motion.propagator(step) @ total)
+    return total
+
+
+def by_differences(problem: Callable[[FloatArray], bs.Problem], state: FloatArray) -> FloatArray:
+    """Return the same by runs from neighbouring states."""
+
+    def end(start: FloatArray) -> FloatArray:
+        run = bs.simulate(problem(start), "exact")
+        last = [run.problem.duration]
+        return np.concatenate([run.motion(0, last)[0], run.motion(1, last)[0]])
+
+    sides = [(end(state + 1e-6 * e), end(state - 1e-6 * e)) for e in np.eye(len(state))]
+    return np.stack([(above - below) / 2e-6 for above, below in sides], axis=1)
+
+
+def test_a_stop_that_pushes_again_before_its_gap_opens() -> None:
+    """The force rises from zero there: differences do not jump, as they do at a closing."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[1.0, 9.3], damping=0.02, shapes={("P", "dx"): [1.0, 1.0]}
+    )
+    wall = bs.Stop("wall", node="P", normal=(1, 0, 0), gap=0.01, stiffness=149.0, damping=12.9)
+    shaker = bs.Harmonic(7.29, cosine=1.0)
+    load = bs.NodalForce("load", node="P", force=(600.0, 0, 0), time=shaker)
+    push = bs.NodalForce("push", node="P", force=(-50.0, 0, 0))
+
+    def problem(state: FloatArray) -> bs.Problem:
+        start = bs.ModalState(displacement=state[:2], velocity=state[2:])
+        return bs.Problem(basis, laws=[wall], loads=[load, push], initial=start, duration=1.0)
+
+    state = np.array([0.1, 0.0, 0.0, 0.0])
+    run = bs.simulate(problem(state), "exact")
+    events = run.events
+    assert ((events["before"] == "released") & (events["after"] == "closed")).any()
+    assert ((events["before"] == "open") & (events["after"] == "closed")).any()
+    expected = by_differences(problem, state)
+    found = tangent_map(run)
+    np.testing.assert_allclose(found, expected, atol=1e-5 * float(np.abs(expected).max()))
 
 
 def test_it_converges_and_can_be_drawn() -> None:

@@ -68,3 +68,36 @@ def test_refuses(run: bs.Response) -> None:
         bs.work_by_sector(run, [])
     with pytest.raises(bs.InputError, match="unknown axes"):
         bs.work_by_sector(run, "east", axes=("dx", "drz"))
+    for axes in (("dy", "dy"), ("dy",), ("dx", "dy", "dz")):
+        with pytest.raises(bs.InputError, match="two different dofs"):
+            bs.work_by_sector(run, "east", axes=axes)  # type: ignore[arg-type]
+    with pytest.raises(bs.InputError, match="used twice"):
+        bs.work_by_sector(run, ["east", "east"])
+
+
+def test_a_hole_that_another_node_carries() -> None:
+    """Both nodes fly along together: the place that counts is that of the one in the other."""
+    shapes = {
+        ("P", "dx"): [1.0, 0.0, 0.0, 0.0],
+        ("P", "dy"): [0.0, 1.0, 0.0, 0.0],
+        ("Q", "dx"): [0.0, 0.0, 1.0, 0.0],
+        ("Q", "dy"): [0.0, 0.0, 0.0, 1.0],
+    }
+    basis = bs.ModalBasis.from_modes(frequency=[0.0] * 4, shapes=shapes)
+    wall = bs.Stop("wall", node="P", other="Q", normal=(-1, 0, 0), gap=0.02, stiffness=50.0)
+    start = bs.ModalState(velocity=[2.0, 0.1, 1.0, -0.1])
+    response = bs.simulate(bs.Problem(basis, laws=[wall], initial=start, duration=1.0))
+    times = np.linspace(0.0, 1.0, 200_001)
+    apart = {
+        (quantity, dof): response.sample(quantity, "P", dof, times=times)
+        - response.sample(quantity, "Q", dof, times=times)
+        for quantity in ("displacement", "velocity")
+        for dof in ("dx", "dy")
+    }
+    power = response.sample("stop_force", "wall", times=times) * np.abs(apart["velocity", "dy"])
+    turned = np.arctan2(apart["displacement", "dy"], apart["displacement", "dx"])
+    turned = np.mod(turned, 2.0 * math.pi)
+    sums, _ = np.histogram(turned, bins=40, range=(0.0, 2.0 * math.pi), weights=power)
+    found = bs.work_by_sector(response, "wall", sectors=40, axes=("dx", "dy"))
+    np.testing.assert_allclose(found, sums / len(times), rtol=1e-3, atol=1e-4 * sums.max())
+    assert np.count_nonzero(found) > 2

@@ -145,8 +145,9 @@ class _Step(NamedTuple):
 class _Switch(NamedTuple):
     time: float
     law: int
-    closing: bool
-    """Whether it is an impact or a closing, the switches at which forces jump."""
+    jumps: bool
+    """Whether forces may jump at it: at impacts, and at closings of gaps. Where a damper that
+    held the push back lets a stop push again, the force rises from zero."""
 
 
 class _Tangents:
@@ -227,11 +228,16 @@ class _Tangents:
         events = self._response.event_table()
         names = [law.name for law in self._laws]
         found = [
-            _Switch(time, names.index(str(law)), guard == "impact" or after == "closed")
-            for time, law, guard, after in zip(
+            _Switch(
+                time,
+                names.index(str(law)),
+                guard == "impact" or (before, after) == ("open", "closed"),
+            )
+            for time, law, guard, before, after in zip(
                 np.array(events["time"], dtype=float).tolist(),
                 events["law"],
                 events["guard"],
+                events["before"],
                 events["after"],
                 strict=True,
             )
@@ -249,7 +255,7 @@ class _Tangents:
         jump = np.eye(2 * modes)
         if isinstance(law, RigidStop):
             return self._impact(law, row, switch.time)
-        if isinstance(law, Stop) and switch.closing:
+        if isinstance(law, Stop) and switch.jumps:
             # The damper's force sets in with the speed: (f+ - f-) / (dh/dt) is -c row.
             jump[modes:, :modes] = -law.damping * np.outer(row, row)
         return jump

@@ -6,13 +6,13 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from bumpstop.arguments import FloatArray, count, listed, one_of, pair
+from bumpstop.arguments import FloatArray, count, listed, one_of, pair, refuse_twins
 from bumpstop.errors import InputError
 from bumpstop.post.contacts import integrals_of
+from bumpstop.post.sliding import motion_at_obstacle, sliding_speed
 from bumpstop.post.spans import spans_within
-from bumpstop.post.wear import sliding_spans, sliding_speed, time_window
+from bumpstop.post.wear import sliding_spans, time_window
 from bumpstop.projection import TRANSLATIONS
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["work_by_sector"]
 
+MOST_SECTORS = 3600
 SMOOTH = 1e-7
 """Tolerance of the integrals, which begin and end inside contacts, where the sector changes."""
 
@@ -39,7 +40,8 @@ def work_by_sector(
     """Return the work rate of a round contact in each sector of its circle.
 
     The sector is told by where the node is, seen from the centre of the hole, at each instant:
-    for obstacles that are round, and for those made of several planes.
+    for obstacles that are round, and for those made of several planes. Where another node carries
+    the hole, or supports move past it, that is what the node is seen from.
 
     Parameters
     ----------
@@ -69,23 +71,17 @@ def work_by_sector(
     import xarray as xr
 
     names = (stops,) if isinstance(stops, str) else listed("stops", stops)
-    node = _node(response, names)
+    _check_stops(response, names)
     first, last = time_window(response, start, end)
-    plane = [one_of("axes", axis, TRANSLATIONS) for axis in axes]
-    rows = np.array([response.problem.basis.row(node, axis) for axis in plane])
+    plane = _plane(axes)
     middle = np.array(pair("centre", centre))
-    width = 2.0 * np.pi / count("sectors", sectors)
-
-    def sector(times: FloatArray) -> NDArray[np.intp]:
-        y, z = (response.motion(0, times) @ rows.T - middle).T
-        turned = np.mod(np.arctan2(z, y), 2.0 * np.pi)
-        number: NDArray[np.intp] = (turned / width).astype(np.intp)
-        return number.clip(max=sectors - 1)
-
+    width = 2.0 * np.pi / count("sectors", sectors, most=MOST_SECTORS)
     total = np.zeros(sectors)
     for stop in names:
         spans = spans_within(sliding_spans(response, stop), first, last)
-        powers = _powers(response, response.stop_index(stop), sector, sectors)
+        law = response.stop_index(stop)
+        place = motion_at_obstacle(response, law, plane, 0)
+        powers = _powers(response, law, place, middle, sectors)
         total += integrals_of(response, spans, powers, SMOOTH).sum(axis=0)
     angles = {"units": "rad", "long_name": f"angle from {axes[0]} towards {axes[1]}"}
     return xr.DataArray(
@@ -98,22 +94,37 @@ def work_by_sector(
 
 
 def _powers(
-    response: Response, law: int, sector: Callable[[FloatArray], NDArray[np.intp]], sectors: int
+    response: Response,
+    law: int,
+    place: Callable[[FloatArray], FloatArray],
+    middle: FloatArray,
+    sectors: int,
 ) -> Callable[[FloatArray], FloatArray]:
+    """Return the power of sliding in each sector (time, sectors) as a function of instants."""
     speed = sliding_speed(response, law)
 
     def powers(times: FloatArray) -> FloatArray:
+        y, z = (place(times) - middle).T
+        turned = np.mod(np.arctan2(z, y), 2.0 * np.pi) / (2.0 * np.pi)
+        sector = (turned * sectors).astype(np.intp).clip(max=sectors - 1)
         found = np.zeros((len(times), sectors))
         force = response.history.law_motion(law, times)[2]
-        found[np.arange(len(times)), sector(times)] = force * speed(times)
+        found[np.arange(len(times)), sector] = force * speed(times)
         return found
 
     return powers
 
 
-def _node(response: Response, stops: Sequence[str]) -> str:
+def _check_stops(response: Response, stops: Sequence[str]) -> None:
     laws = [response.problem.laws[response.stop_index(stop)] for stop in stops]
+    refuse_twins("stops", stops)
     nodes = list(dict.fromkeys(law.coordinate.node for law in laws))
     if len(nodes) != 1:
         raise InputError("must be one or more stops at one node", key="stops", value=nodes)
-    return nodes[0]
+
+
+def _plane(axes: tuple[str, str]) -> list[str]:
+    plane = [one_of("axes", axis, TRANSLATIONS) for axis in listed("axes", axes)]
+    if len(set(plane)) != 2 or len(plane) != 2:
+        raise InputError("must be two different dofs", key="axes", value=axes)
+    return plane

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -11,16 +11,14 @@ from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray, finite, not_negative, positive, series
 from bumpstop.errors import InputError
-from bumpstop.laws.friction import component_row, sliding_row
 from bumpstop.post.contacts import integrals_of, loaded_spans
+from bumpstop.post.sliding import sliding_speed
 from bumpstop.post.spans import Spans, spans_within, state_spans
-from bumpstop.projection import TRANSLATIONS
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from bumpstop.post.scars import Scar
-    from bumpstop.problem import Law
     from bumpstop.response import Response
 
 __all__ = [
@@ -30,7 +28,6 @@ __all__ = [
     "WearLaw",
     "WearWork",
     "sliding_spans",
-    "sliding_speed",
     "time_window",
     "wear",
     "wear_work",
@@ -81,8 +78,9 @@ def wear_work(
     The work rate, the mean of normal force times sliding speed, is what wear is told by (P. L. Ko
     and H. Basista, Journal of Pressure Vessel Technology 106 (1984) 338-344; N. J. Fisher, A. B.
     Chow and M. K. Weckwerth, same journal 117 (1995) 312-320). The sliding speed is that of the
-    node along the obstacle, against the other node where there is one; while friction holds it,
-    there is none.
+    node along the obstacle as seen from there: against the other node where there is one, and
+    with the motion of supports that carry the structure past an obstacle which stands still;
+    while friction holds it, there is none.
 
     Parameters
     ----------
@@ -310,32 +308,6 @@ def wear(
         found["depth"] = ("service", depth, {"units": "m", "long_name": "depth of the scar"})
     where = {"service": ("service", service, {"units": "s", "long_name": "time of service"})}
     return xr.Dataset(found, coords=where, attrs={"stop": stop, "work_rate": work.rate})
-
-
-def sliding_speed(response: Response, law: int) -> Callable[[FloatArray], FloatArray]:
-    """Return the speed in m/s with which a law's node moves along its obstacle, over time."""
-    rows = _sliding_rows(response, response.problem.laws[law])
-
-    def speed(times: FloatArray) -> FloatArray:
-        speeds: FloatArray = np.linalg.norm(response.motion(1, times) @ rows.T, axis=1)
-        return speeds
-
-    return speed
-
-
-def _sliding_rows(response: Response, law: Law) -> FloatArray:
-    """Return the motion along the obstacle by the modes, a direction a row, (directions, N)."""
-    basis, contact = response.problem.basis, law.coordinate
-    friction = getattr(law, "friction", None)
-    if contact.terms is not None:
-        if friction is None:
-            what = "rubs in no known direction: its distance is a sum of dofs"
-            raise InputError(what, key="stop", value=law.name)
-        return sliding_row(basis, contact, getattr(law, "sliding", None))[np.newaxis]
-    rows = np.array([component_row(basis, contact, dof) for dof in TRANSLATIONS])
-    normal = np.asarray(contact.direction)
-    across: FloatArray = rows - np.outer(normal, normal @ rows)
-    return across
 
 
 def sliding_spans(response: Response, stop: str) -> Spans:
