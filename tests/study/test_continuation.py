@@ -64,3 +64,5 @@ def test_what_cannot_go_on(case: bs.Case) -> None:
         bs.continuation(case, FREQUENCY, [1.0, 2.0], along={DURATION: [1.0]})
     with pytest.raises(bs.InputError, match="did you mean 'wall'"):
         bs.continuation(case, "stops.wal.gap", [1.0])
+    with pytest.raises(bs.InputError, match="is what changes already"):
+        bs.continuation(case, FREQUENCY, [1.0, 2.0], along={FREQUENCY: [1.0, 2.0]})

@@ -9,6 +9,7 @@ from hypothesis import strategies as some
 from scipy import stats
 
 import bumpstop as bs
+from bumpstop.study.parameters import recorded_parameter
 
 SHARES = np.linspace(0.0, 1.0, 101)
 
@@ -43,9 +44,35 @@ def test_whole_ranges_are_whole() -> None:
     assert levels == [4, 6, 8, 10]
     assert all(type(level) is int for level in levels)
     assert all(type(level) is float for level in bs.Range(4.0, 10, 4).levels)
-    drawn = bs.Range(4, 6).quantiles((np.arange(300) + 0.5) / 300)
+
+
+def test_ranges_are_drawn_from_evenly_whatever_their_ends() -> None:
+    assert bs.Range(0, 1).quantiles(SHARES).tolist() == SHARES.tolist()
+    assert bs.Range(6, 4).quantiles(np.array([0.0, 0.3, 1.0])) == pytest.approx([6.0, 5.4, 4.0])
+    ratios = bs.Range(1e-300, 1e300, spacing="log").quantiles(np.array([0.0, 0.5, 1.0]))
+    assert ratios == pytest.approx([1e-300, 1.0, 1e300], rel=1e-12)
+
+
+def test_keys_of_whole_numbers_draw_these_alone() -> None:
+    drawn = bs.Range(4, 6).whole().quantiles((np.arange(300) + 0.5) / 300)
     assert np.bincount(drawn)[4:].tolist() == [100, 100, 100]
-    assert bs.Range(6, 4).quantiles(np.array([0.0, 0.5, 1.0])).tolist() == [6, 5, 4]
+    assert bs.Range(6, 4).whole().quantiles(np.array([0.0, 0.5, 1.0])).tolist() == [6, 5, 4]
+    assert bs.Range(1, 10, 4, spacing="log").whole().levels == [1, 2, 5, 10]
+    with pytest.raises(bs.InputError, match="the same whole number more than once"):
+        _ = bs.Range(1, 4, 9, spacing="log").whole().levels
+    die = bs.Distribution("randint", low=1, high=7).whole().quantiles((np.arange(60) + 0.5) / 60)
+    assert np.bincount(die)[1:].tolist() == [10] * 6
+    between = bs.Distribution("normal", mean=1.0, standard_deviation=0.1)
+    assert between.whole() is between
+    for each in (bs.Range(1, 10, 4, spacing="log").whole(), bs.Distribution("poisson", mu=2.0)):
+        assert recorded_parameter(each.record) == each
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    one, half, three = np.array([1, 3])[0], np.array([0.5])[0], np.array([3.0])[0]
+    assert bs.Values([one, half]).levels == [1, 0.5]
+    assert bs.Range(one, three, 3).levels == [1.0, 2.0, 3.0]
+    assert bs.Distribution("normal", mean=one, standard_deviation=half).record["mean"] == 1
 
 
 @pytest.mark.parametrize(
@@ -86,6 +113,11 @@ def test_the_median_of_a_lognormal_is_its_median() -> None:
         (lambda: bs.Range(0.0, 1.0, spacing="log"), "from: must be positive for equal ratios"),
         (lambda: bs.Range(1.0, 2.0, spacing="lgo"), "unknown spacing (got 'lgo'); did you mean"),
         (lambda: bs.Range(1.0, 2.0, 10**12), "count: at most 20,000,000"),
+        (lambda: bs.Range(-1.7e308, 1.7e308, 3), "to: is too far from where the range starts"),
+        (
+            lambda: bs.Distribution("lognormal", median="1 mm", sigma="1 mm"),
+            "sigma: wrong unit: 'mm' is a length, expected a pure number",
+        ),
         (lambda: bs.Range(1.0, 2.0, 0), "count: must be 1 or more"),
         (lambda: bs.Range(1.0, "2 quux"), "to: unknown unit (got 'quux')"),
         (lambda: bs.Distribution("normel"), "(got 'normel'); did you mean 'normal'?"),

@@ -90,3 +90,17 @@ def test_searches_that_cannot_be(case: bs.Case) -> None:
         bs.worst_case(case, {GAP: bs.Range(0.1, 0.2)}, FORCE, runs=3)
     with pytest.raises(bs.ComputationError, match="all of the first 8 runs failed: stops"):
         bs.worst_case(case, {STIFFNESS: bs.Range(-2.0, -1.0)}, FORCE, runs=16)
+    with pytest.raises(bs.ComputationError, match="none of 80 runs has a value of what is looked"):
+        bs.worst_case(case, {GAP: bs.Range(100.0, 200.0)}, FORCE, runs=80)
+
+
+def test_a_search_goes_on_where_there_is_no_impact_yet(case: bs.Case) -> None:
+    # A ball of 3 m/s reaches 6 m in the 2 s of the run.
+    found = bs.worst_case(case, {GAP: bs.Range(0.0, 100.0)}, FORCE, runs=160)
+    assert 80 < found.runs <= 160
+    assert found.value == pytest.approx(3.0 * math.sqrt(200.0 * 2.0), rel=1e-3)
+
+
+def test_indices_need_the_result_of_every_run(case: bs.Case) -> None:
+    with pytest.raises(bs.ComputationError, match="runs have no force: variances need all"):
+        bs.sobol_indices(case, {GAP: bs.Range(1, 12)}, {"force": FORCE}, count=16, workers=1)

@@ -274,6 +274,14 @@ def test_our_own_mistakes_stop_no_study(
         ({"stops.spring.gap": bs.Range("1 mm", "1 s", 3)}, "'s' is a time, expected a length"),
         ({"stops.spring.gap": "1 mm"}, "must be a list of values, a Range or a Distribution"),
         ({"title": ["a"]}, "the case has no such key"),
+        (
+            {GAP: bs.Distribution("normal", mean="20 mm", standard_deviation="1 N")},
+            "'N' is a force, expected a length",
+        ),
+        (
+            {GAP: bs.Distribution("weibull_min", c=2.0, scale="1 N")},
+            "'N' is a force, expected a length",
+        ),
     ],
 )
 def test_parameters_that_are_refused(
@@ -313,3 +321,31 @@ def test_a_case_with_variants_needs_one() -> None:
         bs.Study(case, {GAP: [0.0]}, outputs)
     with pytest.raises(bs.InputError, match="did you mean 'stiff'"):
         bs.Study(case, {GAP: [0.0]}, outputs, variant="stif")
+
+
+def test_ranges_between_whole_numbers_are_drawn_as_the_key_takes_them() -> None:
+    study = bs.Study(
+        bs.load_case("cases/sdnl32/case.toml"),
+        {GAP: bs.Range(0, 1), "basis.modes": bs.Range(1, 4)},
+        {"n": bs.Output(quantity="impacts")},
+        sampling=bs.Sampling("latin_hypercube", 8),
+        variant="soft",
+    )
+    columns = study.runs.columns(0, 8)
+    assert sorted(int(8 * float(gap)) for gap in columns[GAP]) == list(range(8))
+    assert sorted(columns["basis.modes"]) == [1, 1, 2, 2, 3, 3, 4, 4]
+
+
+def test_numbers_of_modes_in_equal_ratios_and_by_chance() -> None:
+    case = bs.load_case("cases/sdnl32/case.toml")
+    outputs = {"f": bs.Output(quantity="frequency", mode=1)}
+    ratios = {"basis.modes": bs.Range(1, 10, 4, spacing="log")}
+    found = bs.study(case, ratios, outputs, variant="soft", workers=1)
+    assert found["basis.modes"].values.tolist() == [1, 2, 5, 10]
+    assert not found.failed.any()
+    chance = {"basis.modes": bs.Distribution("randint", low=2, high=5)}
+    drawn = bs.study(
+        case, chance, outputs, sampling="monte_carlo", count=4, variant="soft", workers=1
+    )
+    assert not drawn.failed.any()
+    assert set(drawn["basis.modes"].values.tolist()) <= {2, 3, 4}

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from pint import Unit, UnitRegistry
 
-__all__ = ["Dimension", "read_number_of_any_unit", "read_quantity", "si_factor"]
+__all__ = ["WRONG_UNIT", "Dimension", "read_number_of_any_unit", "read_quantity", "si_factor"]
 
 # Compiled by the functions that use them, since most case files have no unit.
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
@@ -28,6 +28,8 @@ _NUMBER_AND_UNIT = rf"\s*({_NUMBER})\s*(.*?)\s*"
 _UNIT = r"(?:1\s*/|(?:_[0-9]|[^\W\d])++(?:(?:\^|\*\*)?-?[0-9]\b)?[⁻¹²³⁴]*+|[%°]|[*/·()\s])++"
 _BARE_EXPONENT = r"(?<=[^\W\d_])(-?[0-9])\b"
 _LONGEST = 60
+WRONG_UNIT = "wrong unit"
+"""What messages begin with where a unit measures something else."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +183,7 @@ def _refused(text: str, what: str, dimension: Dimension) -> InputError:
 def _wrong_unit(text: str, unit: str, found: str, dimension: Dimension) -> InputError:
     like = f" like {dimension.unit!r}" if dimension.unit else ""
     return InputError(
-        f"wrong unit: {unit!r} is {found}, expected {dimension.name}{like}", value=text
+        f"{WRONG_UNIT}: {unit!r} is {found}, expected {dimension.name}{like}", value=text
     )
 
 

@@ -70,6 +70,8 @@ def continuation(
     >>> [value for value, _ in runs]
     [0.9, 0.8]
     """
+    if parameter in (along or {}):
+        raise InputError("is what changes already", key="along", value=parameter)
     study = Study(
         case,
         {parameter: values, **(along or {})},

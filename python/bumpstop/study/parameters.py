@@ -11,7 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, count, one_of
 from bumpstop.errors import InputError, blamed
-from bumpstop.io.units import read_number_of_any_unit
+from bumpstop.io.units import Dimension, read_number_of_any_unit, read_quantity
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -33,6 +33,8 @@ Level: TypeAlias = float | int | str | bool
 MOST_RUNS = 20_000_000
 """The most runs of a study."""
 
+_PURE = Dimension("a pure number", "", "0.1")
+
 _LEAST_SHARE = 2.0**-53
 """Shares are kept this far from 0 and 1, where unbounded distributions have no quantile."""
 
@@ -49,11 +51,18 @@ class Parameter(Protocol):
         """Values as the user wrote them, for the case to check their units."""
 
     @property
+    def spread(self) -> tuple[str, ...]:
+        """Texts with units of differences of values, for the case to check their units."""
+
+    @property
     def record(self) -> dict[str, Any]:
         """What it is, for a study to be known again by."""
 
     def quantiles(self, shares: FloatArray) -> NDArray[Any]:
         """Return the values below which these shares, from 0 to 1, of all values lie."""
+
+    def whole(self) -> Parameter:
+        """Return it for a key of the case that takes whole numbers alone."""
 
 
 @dataclass(frozen=True)
@@ -80,6 +89,7 @@ class Values:
         given = self.values
         if isinstance(given, str) or not isinstance(given, Sequence) or not given:
             raise InputError("must be a list of values", key="values", value=given)
+        given = [_plain(value) for value in given]
         for number, value in enumerate(given):
             if not isinstance(value, int | float | str):
                 what = "must be a number or a text"
@@ -99,6 +109,11 @@ class Values:
         return tuple(self.values)
 
     @property
+    def spread(self) -> tuple[str, ...]:
+        """Nothing: values are no differences."""
+        return ()
+
+    @property
     def record(self) -> dict[str, Any]:
         """The values."""
         return {"values": list(self.values)}
@@ -109,18 +124,24 @@ class Values:
         chosen: NDArray[Any] = levels[np.minimum(shares * len(levels), len(levels) - 1).astype(int)]
         return chosen
 
+    def whole(self) -> Values:
+        """Return the values as they are."""
+        return self
+
 
 @dataclass(frozen=True)
 class Range:
     """Values from one number to another, both included.
 
-    Where samples are drawn, they are spread evenly between the ends, or so their logarithms.
+    Where samples are drawn, they are spread evenly between the ends, or so their logarithms. For
+    keys of a case that take whole numbers alone, such as a number of modes, only these are drawn,
+    each as often as the others, and equal ratios are rounded to them.
 
     Parameters
     ----------
     start, end
         Numbers in SI units, or texts with units. Where both are whole numbers, and the steps
-        between them, too, the values are whole.
+        between them, too, the values on a grid are whole.
     count
         How many on a grid; none is needed where samples are drawn.
     spacing
@@ -147,7 +168,12 @@ class Range:
 
     def __post_init__(self) -> None:
         one_of("spacing", self.spacing, ("linear", "log"))
+        object.__setattr__(self, "start", _plain(self.start))
+        object.__setattr__(self, "end", _plain(self.end))
         low, high = self._ends
+        if not math.isfinite(high - low):
+            what = "is too far from where the range starts"
+            raise InputError(what, key="to", value=self.end)
         if low == high:
             raise InputError("is where the range starts", key="to", value=self.end)
         if self.spacing == "log" and min(low, high) <= 0.0:
@@ -167,12 +193,17 @@ class Range:
             return ratios
         values: list[Level] = np.linspace(low, high, self.count).tolist()
         whole: list[Level] = [round(float(value)) for value in values]
-        return whole if self._is_whole and whole == values else values
+        return whole if self.is_whole and whole == values else values
 
     @property
     def written(self) -> tuple[object, ...]:
         """Both ends as they are written."""
         return (self.start, self.end)
+
+    @property
+    def spread(self) -> tuple[str, ...]:
+        """Nothing: its ends are values."""
+        return ()
 
     @property
     def record(self) -> dict[str, Any]:
@@ -181,25 +212,29 @@ class Range:
         return {**ends, "count": self.count, "spacing": self.spacing}
 
     def quantiles(self, shares: FloatArray) -> NDArray[Any]:
-        """Return values between the ends, whole ones where both are whole numbers."""
+        """Return values between the ends."""
         low, high = self._ends
+        between: FloatArray
         if self.spacing == "log":
-            ratios: FloatArray = low * (high / low) ** shares
-            return ratios
-        if self._is_whole:
-            steps = np.minimum(np.floor(shares * (abs(high - low) + 1)), abs(high - low))
-            whole: NDArray[np.int64] = (low + np.sign(high - low) * steps).astype(np.int64)
-            return whole
-        between: FloatArray = low + (high - low) * shares
+            between = low ** (1.0 - shares) * high**shares
+        else:
+            between = low + (high - low) * shares
         return between
+
+    def whole(self) -> Parameter:
+        """Return the whole numbers of the range, where it has whole ends."""
+        from bumpstop.study.whole import WholeRange
+
+        return WholeRange(self) if self.is_whole else self
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether both ends are whole numbers."""
+        return isinstance(self.start, int) and isinstance(self.end, int)
 
     @property
     def _ends(self) -> tuple[float, float]:
         return _number("from", self.start), _number("to", self.end)
-
-    @property
-    def _is_whole(self) -> bool:
-        return isinstance(self.start, int) and isinstance(self.end, int)
 
 
 _OWN_NAMES: dict[str, tuple[str, dict[str, str]]] = {
@@ -239,8 +274,13 @@ class Distribution:
 
     def __init__(self, name: str, /, **parameters: float | str) -> None:
         object.__setattr__(self, "name", name)
-        object.__setattr__(self, "parameters", parameters)
+        plain = {key: _plain(value) for key, value in parameters.items()}
+        object.__setattr__(self, "parameters", plain)
         self._frozen()
+        sigma = plain.get("sigma")
+        if name == "lognormal" and isinstance(sigma, str):
+            with blamed("sigma"):
+                read_quantity(sigma, _PURE)
 
     @property
     def levels(self) -> list[Level]:
@@ -256,6 +296,13 @@ class Distribution:
         return tuple(self.parameters[key] for key in places if key in self.parameters)
 
     @property
+    def spread(self) -> tuple[str, ...]:
+        """What is measured as differences of the values are."""
+        places = ("standard_deviation", "scale")
+        given = (self.parameters.get(key) for key in places)
+        return tuple(each for each in given if isinstance(each, str))
+
+    @property
     def record(self) -> dict[str, Any]:
         """Name and parameters."""
         return {"distribution": self.name, **self.parameters}
@@ -264,6 +311,15 @@ class Distribution:
         """Return the quantiles of the distribution."""
         found: FloatArray = self._frozen().ppf(np.clip(shares, _LEAST_SHARE, 1.0 - _LEAST_SHARE))
         return found
+
+    def whole(self) -> Parameter:
+        """Return the whole numbers that a discrete distribution draws."""
+        from scipy import stats
+
+        from bumpstop.study.whole import WholeDistribution
+
+        discrete = isinstance(getattr(stats, self.name, None), stats.rv_discrete)
+        return WholeDistribution(self) if discrete else self
 
     def _frozen(self) -> Any:
         """Return SciPy's distribution with its parameters."""
@@ -323,12 +379,21 @@ def recorded_parameter(record: Mapping[str, Any]) -> Parameter:
     >>> recorded_parameter(Range(1, 4, 2).record)
     Range(start=1, end=4, count=2, spacing='linear')
     """
-    if "values" in record:
-        return Values(record["values"])
-    if "distribution" in record:
-        given = dict(record)
-        return Distribution(given.pop("distribution"), **given)
-    return Range(record["from"], record["to"], record["count"], record["spacing"])
+    given = dict(record)
+    takes_whole = given.pop("whole", False)
+    known: Parameter
+    if "values" in given:
+        known = Values(given["values"])
+    elif "distribution" in given:
+        known = Distribution(given.pop("distribution"), **given)
+    else:
+        known = Range(given["from"], given["to"], given["count"], given["spacing"])
+    return known.whole() if takes_whole else known
+
+
+def _plain(value: Any) -> Any:
+    """Return a number of numpy's as Python's own, everything else as it is."""
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def _number(key: str, value: object) -> float:

@@ -9,9 +9,8 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError, InputError
-from bumpstop.io.case.keys import keyed
 from bumpstop.study.outputs import Output
-from bumpstop.study.parameters import as_parameter
+from bumpstop.study.parameters import Parameter
 from bumpstop.study.sampling import Sampling, unit_samples
 from bumpstop.study.study import Study
 
@@ -70,7 +69,7 @@ def sobol_indices(
     InputError
         If something is not as it must be; see `Study`.
     ComputationError
-        If a run failed: variances need all.
+        If a run failed, or has no such result, as where no impact happens: variances need all.
 
     References
     ----------
@@ -82,9 +81,11 @@ def sobol_indices(
     for name, output in outputs.items():
         if output.shape:
             raise InputError("must be a single number", key=f"outputs.{name}.times")
+    sampling = Sampling("sobol", count, seed)
+    varied = Study(case, parameters, outputs, sampling=sampling, variant=variant).varied
     study = Study(
         case,
-        _columns(parameters, Sampling("sobol", count, seed)),
+        _columns(varied, sampling),
         outputs,
         sampling=Sampling("list"),
         variant=variant,
@@ -95,7 +96,11 @@ def sobol_indices(
         raise ComputationError(f"{int(results.failed.sum())} runs failed: {message}")
     found: dict[str, Any] = {}
     for name in outputs:
-        blocks = results[name].values.reshape(-1, count)
+        values = results[name].values
+        if np.isnan(values).any():
+            message = f"{int(np.isnan(values).sum())} of {len(values)} runs have no {name}"
+            raise ComputationError(f"{message}: variances need all")
+        blocks = values.reshape(-1, count)
         first, total = indices_of(blocks[0], blocks[1], blocks[2:])
         found[f"{name}_first"] = ("parameter", first, {"long_name": "first-order index"})
         found[f"{name}_total"] = ("parameter", total, {"long_name": "total index"})
@@ -124,7 +129,7 @@ def indices_of(one: FloatArray, other: FloatArray, mixed: FloatArray) -> Indices
     return Indices(first, total)
 
 
-def _columns(parameters: Mapping[str, Any], sampling: Sampling) -> dict[str, Sequence[Any]]:
+def _columns(parameters: Mapping[str, Parameter], sampling: Sampling) -> dict[str, Sequence[Any]]:
     """Return the values of each parameter in all runs, block after block."""
     names = list(parameters)
     one, other = np.split(unit_samples(sampling, 2 * len(names)), 2, axis=1)
@@ -132,7 +137,5 @@ def _columns(parameters: Mapping[str, Any], sampling: Sampling) -> dict[str, Seq
     for number, name in enumerate(names):
         blocks = [one[:, number], other[:, number], *(one[:, number] for _ in names)]
         blocks[2 + number] = other[:, number]
-        with keyed(f'parameters."{name}"'):
-            parameter = as_parameter(parameters[name])
-            columns[name] = parameter.quantiles(np.concatenate(blocks)).tolist()
+        columns[name] = parameters[name].quantiles(np.concatenate(blocks)).tolist()
     return columns

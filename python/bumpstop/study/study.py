@@ -8,7 +8,9 @@ from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
 
 from bumpstop.arguments import count, did_you_mean, name
 from bumpstop.errors import InputError
@@ -17,6 +19,7 @@ from bumpstop.io.case.build import STRUCTURE
 from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.load import checked_tables
 from bumpstop.io.case.overrides import overridden
+from bumpstop.io.units import WRONG_UNIT
 from bumpstop.study.evaluation import Recipe
 from bumpstop.study.execution import Progress, execute
 from bumpstop.study.layout import Layout
@@ -107,7 +110,15 @@ class Study:
     def runs(self) -> Runs:
         """The values of the parameters in each run."""
         slowest = [key for key in self.parameters if key.partition(".")[0] in STRUCTURE]
-        return planned(self.parameters, self.sampling, slowest)
+        return planned(self.varied, self.sampling, slowest)
+
+    @cached_property
+    def varied(self) -> dict[str, Parameter]:
+        """The parameters as their keys take them: some take whole numbers alone."""
+        return {
+            key: each.whole() if self._takes_whole(key, each) else each
+            for key, each in self.parameters.items()
+        }
 
     @cached_property
     def layout(self) -> Layout:
@@ -136,7 +147,7 @@ class Study:
             "bumpstop": __version__,
             "case": self.document,
             "files": dict(_digests(self.document, self.case.path.parent)),
-            "parameters": {key: each.record for key, each in self.parameters.items()},
+            "parameters": {key: each.record for key, each in self.varied.items()},
             "sampling": self.sampling.record,
             "slowest_first": list(self.runs.names),
             "outputs": {key: each.record for key, each in self.outputs.items()},
@@ -206,18 +217,43 @@ class Study:
             first, *others = parameter.written or (1.0,)
             for written in (first, *(other for other in others if isinstance(other, str))):
                 self._check_value(key, written)
+            for written in parameter.spread:
+                # A difference may be below what values may be; its unit is theirs.
+                error = self._objection(key, written)
+                if error is not None and error.what.startswith(WRONG_UNIT):
+                    self._refuse(key, error)
 
     def _check_value(self, key: str, written: object) -> None:
-        place = f'parameters."{key}"'
+        error = self._objection(key, written)
+        if error is None:
+            return
+        if error.what in _NO_KEY:
+            what, place = f"the case has no such key: {error.key}", f'parameters."{key}"'
+            raise InputError(what, key=place, hint=error.hint) from error
+        if isinstance(written, str):
+            self._refuse(key, error)
+
+    def _objection(self, key: str, value: object) -> InputError | None:
+        """Return what the checks of a case file say against a value of a key."""
         try:
-            checked_tables(overridden(self.document, {key: written}))
+            checked_tables(overridden(self.document, {key: value}))
         except InputError as error:
-            if error.what in _NO_KEY:
-                what = f"the case has no such key: {error.key}"
-                raise InputError(what, key=place, hint=error.hint) from error
-            if isinstance(written, str):
-                value, hint = error.value, error.hint
-                raise InputError(error.what, key=place, value=value, hint=hint) from error
+            return error
+        return None
+
+    def _refuse(self, key: str, error: InputError) -> NoReturn:
+        place = f'parameters."{key}"'
+        raise InputError(error.what, key=place, value=error.value, hint=error.hint) from error
+
+    def _takes_whole(self, key: str, parameter: Parameter) -> bool:
+        """Return whether a key takes a whole number, and none just beside it."""
+        if parameter.whole() is parameter:
+            return False
+        near = round(float(parameter.quantiles(np.array([0.5]))[0]))
+        beside = [near - _BESIDE, near + _BESIDE]
+        return self._objection(key, near) is None and all(
+            self._objection(key, value) is not None for value in beside
+        )
 
     def _check_outputs(self) -> None:
         if not self.outputs:
@@ -237,6 +273,8 @@ class Study:
                     output.check(problem)
 
 
+_BESIDE = 2.0**-10
+"""So far from a whole number are those that tell whether a key takes others, too."""
 _NO_KEY = ("unknown key", "leads nowhere", "cannot be changed by a variant")
 """What is said of a name that is no key of the case."""
 

@@ -23,6 +23,8 @@ __all__ = ["WorstCase", "worst_case"]
 
 _CROWD = 8
 """Members of a generation for each parameter."""
+_POOR = 1e150
+"""What the search makes smallest, where there is no result."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +79,8 @@ def worst_case(
     InputError
         If something is not as it must be, or the runs are too few to begin.
     ComputationError
-        If none of the first runs could be made.
+        If none of the first runs could be made, or no run has the result, as where the stop
+        whose impacts it is of is never hit.
     """
     from scipy.optimize import differential_evolution
 
@@ -101,6 +104,10 @@ def worst_case(
         vectorized=True,
         updating="deferred",
     )
+    if not search.parameters:
+        what = output.attributes["long_name"]
+        message = f"none of {search.runs} runs has a value of what is looked for: {what}"
+        raise ComputationError(message)
     return WorstCase(search.parameters, search.value, search.runs, search.failed)
 
 
@@ -108,7 +115,7 @@ class _Search:
     """Makes the runs that a search asks for, and remembers the worst."""
 
     def __init__(self, study: Study) -> None:
-        self._varied = study.parameters
+        self._varied = study.varied
         self._evaluator = Evaluator(study.recipe)
         self.parameters: dict[str, Level] = {}
         self.value = -np.inf
@@ -124,10 +131,14 @@ class _Search:
         if self.failed == self.runs:
             message = next(filter(None, kept.messages))
             raise ComputationError(f"all of the first {self.runs} runs failed: {message}")
-        # Neither a run that failed nor one without an impact is a worst case.
-        values = np.nan_to_num(kept.values["value"], nan=-np.inf)
-        largest = int(np.argmax(values))
-        if values[largest] > self.value:
-            self.value = float(values[largest])
-            self.parameters = {name: column[largest] for name, column in columns.items()}
-        return -values
+        values = kept.values["value"]
+        known = ~np.isnan(values)
+        if known.any():
+            largest = int(np.nanargmax(values))
+            if values[largest] > self.value:
+                self.value = float(values[largest])
+                self.parameters = {name: column[largest] for name, column in columns.items()}
+        # Neither a run that failed nor one without an impact is a worst case. That they differ
+        # keeps a search from ending where there is none yet.
+        poor = _POOR * (1.0 + np.arange(len(values)) / len(values))
+        return np.where(known, -values.clip(-_POOR, _POOR), poor)
