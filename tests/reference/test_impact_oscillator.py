@@ -14,6 +14,7 @@ from .impact_oscillator import (
     rigid_orbit,
 )
 from .problem import Array
+from .several.laws.rigid_stop import RigidStop
 from .several.problem import SeveralStops, Stop
 from .several.verdict import core_events
 
@@ -28,6 +29,13 @@ ORBITS = {
     "nearly rigid": (Oscillator(0.05, 1.0, 0.8, spring=1e8), (7.795, 1.7248, np.pi / 1e4, 1.7248)),
     "unstable": (Oscillator(0.05, 6.0, 2.3, spring=200.0), (1.24, 1.87, 0.19, 1.86)),
 }
+
+
+RIGID = [
+    (Oscillator(0.05, 1.0, 0.8, restitution=0.8), (7.70, 1.84)),
+    (Oscillator(0.05, 2.0, 1.5, restitution=0.7), (0.33, 4.76)),
+    (Oscillator(0.05, 6.0, 2.3, restitution=0.8), (1.30, 2.07)),
+]
 
 
 def orbit(name: str) -> Orbit:
@@ -48,12 +56,12 @@ def section(of: Orbit) -> tuple[float, float, float]:
 
 def driven(o: Oscillator, start: float, x: float, v: float, duration: float) -> SeveralStops:
     """Return the oscillator from an instant on, driven by a mode that it does not act back on."""
-    assert o.spring is not None
-    w = o.frequency
+    w, row = o.frequency, np.array([-1.0, 0.0])
     return SeveralStops(
         omega2=np.array([1.0, w**2]),
         damping=np.array([2 * o.damping, 0.0]),
-        stops=(Stop(np.array([-1.0, 0.0]), 1.0, o.spring),),
+        stops=() if o.spring is None else (Stop(row, 1.0, o.spring),),
+        others=() if o.spring is not None else (RigidStop(row, 1.0, o.restitution),),
         duration=duration,
         displacement=np.array([x, o.forcing / w * np.sin(w * start)]),
         velocity=np.array([v, o.forcing * np.cos(w * start)]),
@@ -158,14 +166,7 @@ def test_the_period_doubles_where_a_multiplier_is_minus_one() -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("oscillator", "guess"),
-    [
-        (Oscillator(0.05, 1.0, 0.8, restitution=0.8), (7.70, 1.84)),
-        (Oscillator(0.05, 2.0, 1.5, restitution=0.7), (0.33, 4.76)),
-        (Oscillator(0.05, 6.0, 2.3, restitution=0.8), (1.30, 2.07)),
-    ],
-)
+@pytest.mark.parametrize(("oscillator", "guess"), RIGID)
 def test_a_rigid_stop_takes_its_part_of_the_area_of_states(
     oscillator: Oscillator, guess: tuple[float, float]
 ) -> None:
@@ -175,6 +176,34 @@ def test_a_rigid_stop_takes_its_part_of_the_area_of_states(
     lost = np.exp(-2 * oscillator.damping * float(oscillator.period))
     area = np.prod(known.multipliers)
     assert area == pytest.approx(oscillator.restitution**2 * lost, rel=1e-14)
+
+
+@pytest.mark.parametrize(("oscillator", "guess"), RIGID)
+def test_the_orbit_of_a_rigid_stop_closes(
+    oscillator: Oscillator, guess: tuple[float, float]
+) -> None:
+    known = rigid_orbit(oscillator, guess, periods=1)
+    start, x, v = section(known)
+    period, periods = float(oscillator.period), 2
+    history = driven(oscillator, start, x, v, periods * period).solve()
+    impacts = history.impacts(0)
+    first = (float(known.start) - start) % period
+    wanted = first + period * np.arange(periods)
+    assert impacts["start"] == pytest.approx(wanted, abs=EXACT)
+    assert np.abs(impacts["closing_speed"]) == pytest.approx(float(known.speed), abs=EXACT)
+    assert np.abs(impacts["opening_speed"]) == pytest.approx(float(known.leaving), abs=EXACT)
+    after = carried(oscillator, start, np.array([x, v]), periods)
+    assert after == pytest.approx([x, v], abs=EXACT)
+
+
+@pytest.mark.parametrize(("oscillator", "guess"), RIGID)
+def test_the_orbit_of_a_rigid_stop_is_as_stable_as_its_multipliers_say(
+    oscillator: Oscillator, guess: tuple[float, float]
+) -> None:
+    known = rigid_orbit(oscillator, guess, periods=1)
+    start, x, v = section(known)
+    multipliers = np.linalg.eigvals(slopes(oscillator, start, np.array([x, v])))
+    assert np.sort_complex(multipliers) == pytest.approx(known.multipliers, abs=LITERATURE)
 
 
 def test_a_very_stiff_spring_is_a_rigid_stop_without_loss() -> None:

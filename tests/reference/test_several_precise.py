@@ -6,7 +6,7 @@ import pytest
 from .several.forced import random_forced
 from .several.multilinear import random_multilinear
 from .several.precise import PreciseSeveral
-from .several.problem import SeveralStops
+from .several.problem import SeveralStops, Stop
 from .several.random_problems import random_several
 from .several.rubbing import random_rubbing
 from .several.scan import ScanSolution
@@ -29,6 +29,32 @@ def test_states_after_fifty_events(problem: SeveralStops) -> None:
     assert len(judge.events) >= 20
     assert verdict.difference is None
     assert verdict.excess < 1.0
+
+
+def string_between_stops(modes: int = 200) -> SeveralStops:
+    """Return the modes of a string that is struck, and hits three stops one after the other."""
+    number = np.arange(1, modes + 1)
+    omega = 2.0 * np.pi * np.linspace(10.0, 300.0, modes)
+    places, gaps = (0.4, 0.52, 0.58), (1e-5, 2e-5, 3e-5)
+    stops = zip(places, gaps, (2e5, 1e6, 5e4), (0.0, 30.0, 5.0), strict=True)
+    return SeveralStops(
+        omega2=omega**2,
+        damping=0.02 * omega,
+        stops=tuple(Stop(np.sin(np.pi * at * number), *rest) for at, *rest in stops),
+        duration=8e-3,
+        displacement=np.zeros(modes),
+        velocity=-0.1 * np.sin(np.pi * 0.47 * number) * np.exp(-((number / 60.0) ** 2)),
+    )
+
+
+def test_hundreds_of_modes_among_several_stops() -> None:
+    problem = string_between_stops()
+    judge = PreciseSeveral(problem, EVENTS, LARGEST_GROWTH)
+    verdict = compare(problem, judge)
+    assert len(judge.events) == 13
+    assert {event.stop for event in judge.events} == {0, 1, 2}
+    assert verdict.difference is None
+    assert verdict.error < 1e-12
 
 
 @pytest.mark.parametrize("seed", [3, 6, 13, 16, 17, 23])

@@ -235,6 +235,19 @@ impl Forcing {
         next
     }
 
+    /// Time between the last knot of any table and the next one, around the time at which `places`
+    /// were set; infinite where there is none on either side.
+    pub fn stretch(&self, places: &[usize]) -> f64 {
+        let (mut last, mut next) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (channel, place) in self.channels.iter().zip(places) {
+            if let History::Table(table) = &channel.history {
+                last = last.max(table.knot_before(*place));
+                next = next.min(table.knot(*place));
+            }
+        }
+        next - last
+    }
+
     /// Power of the forces that change, in W.
     pub fn changing_power(&self, time: f64, velocity: &[f64]) -> f64 {
         if !self.varies() {

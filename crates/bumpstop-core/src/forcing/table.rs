@@ -65,6 +65,12 @@ impl Table {
         self.times.get(place).copied().unwrap_or(f64::INFINITY)
     }
 
+    /// The knot before a place; minus infinity before the first.
+    pub fn knot_before(&self, place: usize) -> f64 {
+        let knot = place.checked_sub(1).and_then(|last| self.times.get(last));
+        knot.copied().unwrap_or(f64::NEG_INFINITY)
+    }
+
     /// The first time at which it jumps.
     pub(super) fn jump(&self) -> Option<f64> {
         let last = self.times.len() - 1;

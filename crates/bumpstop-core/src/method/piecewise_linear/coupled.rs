@@ -112,8 +112,12 @@ impl Coupled {
 impl Coupled {
     /// `C y`
     pub(crate) fn damped(&self, y: &[f64]) -> Vec<f64> {
-        let product = |i: usize| (0..y.len()).map(|k| self.damping[(i, k)] * y[k]).sum();
-        (0..y.len()).map(product).collect()
+        product(&self.damping, y)
+    }
+
+    /// `K y`
+    pub(crate) fn held(&self, y: &[f64]) -> Vec<f64> {
+        product(&self.stiffness, y)
     }
 
     /// `(K + i omega C - omega^2)^-1 p`
@@ -132,6 +136,11 @@ impl Coupled {
             .map(|i| Complex::new(solution[(i, 0)].re, solution[(i, 0)].im))
             .collect()
     }
+}
+
+fn product(matrix: &Mat<f64>, y: &[f64]) -> Vec<f64> {
+    let row = |i: usize| (0..y.len()).map(|k| matrix[(i, k)] * y[k]).sum();
+    (0..y.len()).map(row).collect()
 }
 
 fn diagonal(values: &[f64]) -> Mat<f64> {

@@ -241,8 +241,10 @@ impl View {
             set_entry(&mut self.exponents, at, resisted);
         }
         for push in &response.drives.pushes {
-            let goes_with =
-                |link: &Link| link.channel == push.channel && link.order == push.order as i32;
+            let goes_with = |link: &Link| {
+                let is_its = link.channel == push.channel && link.pushed == push.order;
+                is_its && link.order == push.order as i32
+            };
             if let Some(link) = response.links.iter().position(goes_with) {
                 self.links[link] -= dot(row, &push.direction);
             }

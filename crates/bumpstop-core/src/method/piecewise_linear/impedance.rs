@@ -41,6 +41,21 @@ impl Impedance<'_> {
         }
     }
 
+    /// `K y`
+    pub(crate) fn held(&self, y: &[f64]) -> Vec<f64> {
+        match self {
+            Self::OneLaw(coupling) => {
+                let seen: f64 = coupling.phi.iter().zip(y).map(|(phi, y)| phi * y).sum();
+                let push = coupling.stiffness * seen;
+                let both = coupling.omega2.iter().zip(&coupling.phi);
+                both.zip(y)
+                    .map(|((w2, phi), y)| w2 * y + phi * push)
+                    .collect()
+            }
+            Self::Dense(coupled) => coupled.held(y),
+        }
+    }
+
     /// `(K + i omega C - omega^2)^-1 p`; `None` where several motions resist nothing.
     pub(crate) fn harmonic(
         &self,
@@ -125,6 +140,7 @@ mod tests {
         for i in 0..3 {
             close(a[i], b[i], 1.0);
             close(one.damped(&forces)[i], other.damped(&forces)[i], 1.0);
+            close(one.held(&forces)[i], other.held(&forces)[i], 1e3);
         }
         let complex = [1.0, -2.0, 0.5].map(|p| Complex::new(p, 0.3 - p));
         // At 3 rad/s the second mode by itself resists nothing.

@@ -65,6 +65,7 @@ use curved::{CurvedGuards, Guards};
 use event::Watch;
 use phase::{Phases, Workspace};
 use recent::Recent;
+use response::Stretch;
 use spectrum::{Secular, Spectrum, Workbench};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -135,6 +136,8 @@ struct Run<'a, L> {
     problem: &'a Problem<L>,
     phases: Phases,
     recent: Recent,
+    /// What the loads change in at present.
+    stretch: Stretch,
     events: Vec<Event>,
     certificate: Certificate,
     contacts: Contacts,
@@ -147,6 +150,7 @@ impl<'a, L: Law> Run<'a, L> {
             problem,
             phases: Phases::empty(),
             recent: Recent::default(),
+            stretch: Stretch::default(),
             events: Vec::new(),
             certificate: Certificate::default(),
             contacts: Contacts::new(problem),
@@ -301,8 +305,8 @@ impl<'a, L: Law> Run<'a, L> {
         (self.contacts).meet(self.problem, place, q, v, states, &mut self.events)
     }
 
-    /// Turns to the loads from a time on; returns the next instant at which one of them has a
-    /// knot.
+    /// Turns to the loads from a time on and to the stretch in which it lies; returns the next
+    /// instant at which one of them has a knot.
     #[inline(always)]
     fn meet_loads(&mut self, time: f64) -> f64 {
         let forcing = &self.problem.forcing;
@@ -311,6 +315,7 @@ impl<'a, L: Law> Run<'a, L> {
         }
         let Scratch { places, work, .. } = &mut *self.scratch;
         forcing.onset(time, places, &mut work.onset);
+        self.stretch = Stretch::of(forcing.stretch(places), self.problem.duration);
         forcing.next_knot(places)
     }
 
@@ -344,7 +349,8 @@ impl<'a, L: Law> Run<'a, L> {
     fn dense_spectrum(&mut self, states: &[State]) -> Result<usize> {
         let room = self.phases.spare_spectrum();
         let bench = &mut self.scratch.bench;
-        let dense = Spectrum::new::<Plain, L>(self.problem, states, Secular::Skip, bench, room)?;
+        let (stretch, secular) = (self.stretch, Secular::Skip);
+        let dense = Spectrum::new::<Plain, L>(self.problem, states, stretch, secular, bench, room)?;
         Ok(self.keep(states, dense))
     }
 
@@ -361,12 +367,15 @@ impl<'a, L: Law> Run<'a, L> {
     #[inline(always)]
     fn spectrum<I: Instructions>(&mut self, states: &[State]) -> Result<usize> {
         let problem = self.problem;
-        match self.recent.find(problem, states, &self.phases.spectra) {
+        let stretch = self.stretch;
+        let known = (self.recent).find(problem, states, stretch, &self.phases.spectra);
+        match known {
             Some(known) => Ok(known),
             None => {
                 let room = self.phases.spare_spectrum();
                 let bench = &mut self.scratch.bench;
-                let fresh = Spectrum::new::<I, L>(self.problem, states, Secular::Try, bench, room)?;
+                let secular = Secular::Try;
+                let fresh = Spectrum::new::<I, L>(problem, states, stretch, secular, bench, room)?;
                 Ok(self.keep(states, fresh))
             }
         }

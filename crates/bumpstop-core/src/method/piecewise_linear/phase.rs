@@ -1,6 +1,7 @@
 //! Phases: stretches of time in which no law switches, kept as amplitudes of exponentials.
 
 use super::cluster::Cluster;
+use super::product::grown_lanes;
 use super::response::Response;
 use super::rows::{ComplexBlock, entry};
 use super::single_mode::Kept;
@@ -247,6 +248,9 @@ impl Phases {
     }
 
     /// Fills the workspace with the exponentials of a phase, `t` after its start.
+    ///
+    /// Over a hundred thousand short phases exponentials close to one would lose the same digits
+    /// each time. What they are more than one is added instead: its rounding has no preference.
     #[inline(always)]
     pub(crate) fn turn<I: Instructions>(&self, phase: Phase, t: f64, work: &mut Workspace) {
         let spectrum = &self.spectra[phase.spectrum];
@@ -254,9 +258,18 @@ impl Phases {
         work.fit(amplitudes.len());
         let time = t;
         let t = Lanes::<I>::of(t);
+        let is_short = spectrum
+            .response
+            .as_ref()
+            .is_some_and(|r| r.reach.is_finite());
         for (b, (lambda, amplitude)) in spectrum.lambda.iter().zip(amplitudes).enumerate() {
             let lambda = lambda.lanes::<I>();
-            let z = amplitude.lanes() * lambda.scale(t).exp();
+            let amplitude = amplitude.lanes();
+            let z = if is_short {
+                amplitude + amplitude * (lambda * grown_lanes::<I>(lambda, time))
+            } else {
+                amplitude * lambda.scale(t).exp()
+            };
             work.z[b].put(z);
             work.rate[b].put(z * lambda);
         }

@@ -148,13 +148,23 @@ pub(crate) fn of_derivative(coefficients: &[f64], order: i32, power: usize) -> f
     let Some(c) = coefficients.get(from) else {
         return 0.0;
     };
-    let product = |low: usize, high: usize| (low + 1..=high).fold(1.0, |p, n| p * n as f64);
     if order >= 0 {
-        c * product(power, from)
+        c * (FACTORIALS[from] / FACTORIALS[power])
     } else {
-        c / product(from, power)
+        c / (FACTORIALS[power] / FACTORIALS[from])
     }
 }
+
+/// `n!` for all powers that integrals of loads have.
+const FACTORIALS: [f64; 64] = {
+    let mut factorials = [1.0; 64];
+    let mut n = 1;
+    while n < factorials.len() {
+        factorials[n] = factorials[n - 1] * n as f64;
+        n += 1;
+    }
+    factorials
+};
 
 /// The derivative of the given order of a polynomial at t.
 #[inline(always)]

@@ -86,11 +86,7 @@ impl<'a> Products<'a> {
         };
         total += self.with_powers::<I>(&a.amplitudes, &b.polynomial);
         total += self.with_powers::<I>(&b.amplitudes, &a.polynomial);
-        for (n, p) in a.polynomial.iter().enumerate() {
-            for (m, q) in b.polynomial.iter().enumerate() {
-                total += p * q * t.powi((n + m + 1) as i32) / (n + m + 1) as f64;
-            }
-        }
+        total += of_powers(&a.polynomial, &b.polynomial, t);
         if a.other.is_some() || b.other.is_some() {
             total += self.remaining::<I>(a, b);
         }
@@ -199,6 +195,21 @@ impl<'a> Products<'a> {
     }
 }
 
+/// Integral of the product of two polynomials.
+fn of_powers(a: &[f64], b: &[f64], t: f64) -> f64 {
+    let mut total = 0.0;
+    let mut power = t;
+    for (n, p) in a.iter().enumerate() {
+        let mut sum = 0.0;
+        for (m, q) in b.iter().enumerate().rev() {
+            sum = sum * t + q / (n + m + 1) as f64;
+        }
+        total += p * power * sum;
+        power *= t;
+    }
+    total
+}
+
 /// The same complex number in all lanes.
 #[inline(always)]
 fn spread<I: Instructions>(z: Complex<f64>) -> Complex<Lanes<I>> {
@@ -223,7 +234,7 @@ pub(super) fn grown(s: Complex<f64>, t: f64) -> Complex<f64> {
 
 /// The same for eight exponents.
 #[inline(always)]
-fn grown_lanes<I: Instructions>(s: Complex<Lanes<I>>, t: f64) -> Complex<Lanes<I>> {
+pub(super) fn grown_lanes<I: Instructions>(s: Complex<Lanes<I>>, t: f64) -> Complex<Lanes<I>> {
     let (t, one) = (Lanes::<I>::of(t), Lanes::<I>::of(1.0));
     let turn = s.scale(t);
     let (size, limit) = (turn.norm2(), Lanes::of(SHORT * SHORT));

@@ -3,6 +3,7 @@
 //! Phases keep their spectra for as long as the run is asked for anything; what is bounded here is
 //! how many are looked through at a switch.
 
+use super::response::Stretch;
 use super::spectrum::Spectrum;
 use crate::law::{Law, State};
 use crate::problem::Problem;
@@ -33,17 +34,18 @@ impl Recent {
         }
     }
 
-    /// The number of the spectrum that serves the given states.
+    /// The number of the spectrum that serves the given states in such stretches.
     #[inline(always)]
     pub(crate) fn find<L: Law>(
         &mut self,
         problem: &Problem<L>,
         states: &[State],
+        stretch: Stretch,
         spectra: &[Box<Spectrum>],
     ) -> Option<usize> {
         let digest = digest(states);
         let serves = |(own, number): &(u64, usize)| {
-            *own == digest && spectra[*number].serves(problem, states)
+            *own == digest && spectra[*number].serves(problem, states, stretch)
         };
         let found = self.kept.iter().rposition(serves)?;
         let latest = self.kept.len() - 1;

@@ -387,6 +387,9 @@ impl Signal {
     pub(crate) fn pace(&self, spectrum: &Spectrum) -> f64 {
         let [size, _, bending] = self.totals;
         let mut pace = if size > 0.0 { bending / size } else { 0.0 };
+        if let Some(response) = &spectrum.response {
+            pace = pace.max(response.pace().powi(2));
+        }
         for special in &self.specials {
             pace = pace.max(spectrum.singles[special.single].motion.omega2.abs());
         }

@@ -12,7 +12,7 @@ use super::grouping::Acts;
 use super::held::{Held, Reaction};
 use super::impedance::Impedance;
 use super::parts::Parts;
-use super::response::{Drives, Response};
+use super::response::{Drives, Response, Stretch, Times};
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
 use super::singles::{Single, Subject};
@@ -35,6 +35,8 @@ pub(crate) struct Member {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Spectrum {
     pub states: Vec<State>,
+    /// The stretches between knots of tables for which it follows loads.
+    pub stretch: Stretch,
     /// Exponents, in blocks; the first `coupled_width` belong to the coupled groups. One of each
     /// conjugate pair, or a real one; padding has exponent zero.
     pub lambda: Vec<ComplexBlock>,
@@ -123,12 +125,14 @@ impl Spectrum {
     pub(crate) fn new<I: Instructions, L: Law>(
         problem: &Problem<L>,
         states: &[State],
+        stretch: Stretch,
         secular: Secular,
         bench: &mut Workbench,
         room: Box<Self>,
     ) -> Result<Box<Self>> {
         let mut spectrum = room.cleared();
         spectrum.states.extend_from_slice(states);
+        spectrum.stretch = stretch;
         match Acts::of(problem, states) {
             _ if problem.system.is_coupled() => {
                 spectrum.couple_components(problem, states, secular, bench)?;
@@ -172,9 +176,15 @@ impl Spectrum {
     /// Whether it is that of the given states: they have its matrices by their numbers, and its
     /// constant forces unless they remember something else.
     #[inline(always)]
-    pub(crate) fn serves<L: Law>(&self, problem: &Problem<L>, states: &[State]) -> bool {
+    pub(crate) fn serves<L: Law>(
+        &self,
+        problem: &Problem<L>,
+        states: &[State],
+        stretch: Stretch,
+    ) -> bool {
         let both = || self.states.iter().zip(states);
-        both().all(|(own, other)| own.number == other.number)
+        self.stretch == stretch
+            && both().all(|(own, other)| own.number == other.number)
             && both().zip(&problem.laws).all(|((own, other), law)| {
                 own.memory == other.memory || law.piece(*own) == law.piece(*other)
             })
@@ -213,9 +223,12 @@ impl Spectrum {
         };
         let forcing = &problem.forcing;
         let drives = Drives::of(problem, &self.states);
-        let duration = problem.duration;
+        let times = Times {
+            duration: problem.duration,
+            stretch: self.stretch.longest(problem.duration),
+        };
         let (response, mut clusters) =
-            Response::new(forcing, drives, self, impedance.as_ref(), duration);
+            Response::new(forcing, drives, self, impedance.as_ref(), times);
         self.response = Some(Box::new(response));
         // Their columns turn by the clusters alone.
         let columns = clusters.last().map_or(0, |last| last.at + last.size);

@@ -5,6 +5,8 @@
 //! `-sum_m B^-(m+1) Y f^(m)` and a harmonic one by `(i omega - B)^-1 Y p`; where these inverses
 //! are large over the length of the run, the motion is a small difference of large ones.
 
+use super::integrals;
+use super::orders::Orders;
 use super::parts::ComplexParts;
 use crate::method::piecewise_linear::cluster::complex;
 use crate::method::piecewise_linear::rows::entry;
@@ -14,8 +16,8 @@ use crate::number::{Complex, LANES};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-/// Exponents with `|lambda| T` below this over a run of length T are slow beside a polynomial:
-/// its degree makes one division by them after the other.
+/// Exponents with `|lambda| T` below this are slow beside a polynomial that goes on for the time
+/// T: its degree makes one division by them after the other.
 pub(super) const SLOW: f64 = 3.0;
 
 /// A load and a motion resonate when they turn apart by less than this over the run: at more, the
@@ -32,6 +34,37 @@ enum Columns {
         shapes: Vec<Complex<f64>>,
         lefts: Vec<Complex<f64>>,
     },
+}
+
+/// How long a load goes on as the polynomial that it is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    /// The run, or a stretch between two knots.
+    pub length: f64,
+    pub is_table: bool,
+}
+
+impl Course {
+    /// Exponents whose modulus times the length is below this are slow beside it: a table has one
+    /// derivative only.
+    fn slow(self) -> f64 {
+        if self.is_table {
+            integrals::FARTHEST
+        } else {
+            SLOW
+        }
+    }
+}
+
+/// How a block follows a polynomial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    /// By the load's derivatives.
+    Derivatives,
+    /// By so many of its integrals.
+    Integrals(usize),
+    /// Bordered by the load.
+    FromRest,
 }
 
 /// Exponents that move together.
@@ -115,9 +148,16 @@ impl Block {
         std::iter::once(side(false)).chain(conjugate)
     }
 
-    /// Whether a polynomial load must not be followed by the series.
-    pub(super) fn is_slow(&self, duration: f64) -> bool {
-        resolvent(&self.generator, Complex::zero()) * SLOW > duration
+    /// How it follows a polynomial.
+    pub(super) fn way(&self, course: Course) -> Way {
+        if resolvent(&self.generator, Complex::zero()) * course.slow() <= course.length {
+            return Way::Derivatives;
+        }
+        let norm = self.generator.norm_l2();
+        match integrals::terms(norm, course.length).filter(|_| course.is_table) {
+            Some(count) => Way::Integrals(count),
+            None => Way::FromRest,
+        }
     }
 
     /// How all modes see each column.
@@ -157,26 +197,48 @@ impl Block {
         }
     }
 
-    /// Adds `-sum_m B^-(m+1) Y f^(m)` to the series of the groups under a force, one row an order.
-    pub(super) fn add_series(
+    /// Adds `-sum_m B^-(m+1) Y f^(m)` to what the groups do under a force.
+    pub(super) fn add_derivatives(
         &self,
         spectrum: &Spectrum,
         force: &ComplexParts,
-        series: &mut [Vec<f64>],
+        count: usize,
+        orders: &mut Orders,
     ) {
-        let Columns::Coupled(columns) = &self.columns else {
-            return;
-        };
         let gains = self.gains(spectrum, force);
         let mut term = Mat::from_fn(gains.len(), 1, |i, _| c64::new(-gains[i].re, -gains[i].im));
         let inverse = self.generator.full_piv_lu();
-        for row in series {
+        for order in 0..count as i32 {
             term = inverse.solve(&term);
-            for (group, total) in row.iter_mut().enumerate() {
-                for (i, j) in columns.iter().enumerate() {
-                    let shape = spectrum.shape(group, *j);
-                    *total += shape.real_product(complex(term[(i, 0)]));
-                }
+            self.add_seen(spectrum, &term, orders.groups(order));
+        }
+    }
+
+    /// Adds `sum_n B^n Y` times the integrals of a force.
+    pub(super) fn add_integrals(
+        &self,
+        spectrum: &Spectrum,
+        force: &ComplexParts,
+        count: usize,
+        orders: &mut Orders,
+    ) {
+        let gains = self.gains(spectrum, force);
+        let mut term = Mat::from_fn(gains.len(), 1, |i, _| c64::new(gains[i].re, gains[i].im));
+        for n in 1..=count as i32 {
+            self.add_seen(spectrum, &term, orders.groups(-n));
+            term = &self.generator * &term;
+        }
+    }
+
+    /// Adds what the groups see of its columns.
+    fn add_seen(&self, spectrum: &Spectrum, z: &Mat<c64>, groups: &mut [f64]) {
+        let Columns::Coupled(columns) = &self.columns else {
+            return;
+        };
+        for (group, total) in groups.iter_mut().enumerate() {
+            for (i, j) in columns.iter().enumerate() {
+                let shape = spectrum.shape(group, *j);
+                *total += shape.real_product(complex(z[(i, 0)]));
             }
         }
     }

@@ -42,10 +42,11 @@ pub(super) struct Load {
 }
 
 impl Load {
-    /// A derivative of a polynomial and those after it, each in the unit of the run's length.
-    pub(super) fn channel(push: &Push, coefficients: usize, duration: f64) -> Self {
+    /// A derivative of a polynomial and those after it, each in the unit of the time for which it
+    /// is followed.
+    pub(super) fn channel(push: &Push, coefficients: usize, length: f64) -> Self {
         let left = coefficients.saturating_sub(push.order);
-        let next = |r: usize, c: usize| if c == r + 1 { 1.0 / duration } else { 0.0 };
+        let next = |r: usize, c: usize| if c == r + 1 { 1.0 / length } else { 0.0 };
         Self {
             leader: Leader::Channel {
                 number: push.channel,
@@ -65,21 +66,21 @@ impl Load {
 
 impl Follower {
     /// A block that the load gives so much to, and the cluster of both, whose columns start at
-    /// `at`. `None` where the load gives it nothing.
+    /// `at`, for times up to a length. `None` where the load gives it nothing.
     pub(super) fn new(
         load: &Load,
         generator: &Mat<c64>,
         gains: &[Complex<f64>],
         shapes: Vec<Vec<Complex<f64>>>,
         at: usize,
-        duration: f64,
+        length: f64,
     ) -> Option<(Self, Cluster)> {
         let gain = gains.iter().map(|g| g.norm2()).sum::<f64>().sqrt();
         if gain == 0.0 || load.generator.nrows() == 0 {
             return None;
         }
-        // What a load gives in a run: its columns are about as large as the block's.
-        let speed = 1.0 / duration;
+        // What a load gives meanwhile: its columns are about as large as the block's.
+        let speed = 1.0 / length;
         let columns = load.generator.nrows();
         let drive = Drive {
             gains: Mat::from_fn(gains.len(), columns, |r, c| {
@@ -97,9 +98,9 @@ impl Follower {
             leader: load.leader,
             shapes,
             size: gain / speed,
-            unit: duration,
+            unit: length,
         };
-        Some((follower, Cluster::driven(at, generator, drive, duration)))
+        Some((follower, Cluster::driven(at, generator, drive, length)))
     }
 
     /// Its columns at the start of a phase.

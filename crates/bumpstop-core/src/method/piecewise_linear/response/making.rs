@@ -1,11 +1,12 @@
 //! How a spectrum's motion follows each load: by series, by shapes, or from rest.
 
-use super::block::Block;
+use super::block::{Block, Course, Way};
 use super::drives::Push;
 use super::follower::{Follower, Load};
+use super::orders::Orders;
 use super::parts::{ComplexParts, Parts};
-use super::{Link, Response, single};
-use crate::forcing::Forcing;
+use super::{Link, Response, Times, integrals, single};
+use crate::forcing::{Forcing, History};
 use crate::method::piecewise_linear::cluster::Cluster;
 use crate::method::piecewise_linear::impedance::Impedance;
 use crate::method::piecewise_linear::spectrum::Spectrum;
@@ -16,11 +17,10 @@ use faer::{Mat, c64};
 pub(super) struct Making<'a> {
     spectrum: &'a Spectrum,
     impedance: Option<&'a Impedance<'a>>,
+    forcing: &'a Forcing,
     modes: usize,
-    duration: f64,
+    times: Times,
     blocks: Vec<Block>,
-    /// Whether one of them is slow.
-    has_slow: bool,
     singles: Vec<Block>,
     /// Column of the next follower.
     next: usize,
@@ -33,20 +33,19 @@ impl<'a> Making<'a> {
         response: &'a mut Response,
         spectrum: &'a Spectrum,
         impedance: Option<&'a Impedance<'a>>,
-        forcing: &Forcing,
-        duration: f64,
+        forcing: &'a Forcing,
+        times: Times,
     ) -> Self {
-        let blocks = Block::coupled(spectrum);
         let singles = spectrum.singles.iter().enumerate();
         Self {
             spectrum,
             impedance,
+            forcing,
             modes: forcing.forces().len(),
-            duration,
-            has_slow: blocks.iter().any(|block| block.is_slow(duration)),
-            blocks,
+            times,
+            blocks: Block::coupled(spectrum),
             singles: singles
-                .map(|(index, single)| Block::single(index, &single.motion, duration))
+                .map(|(index, single)| Block::single(index, &single.motion, times.duration))
                 .collect(),
             next: spectrum.forced_at + forcing.harmonics().len(),
             response,
@@ -68,70 +67,114 @@ impl<'a> Making<'a> {
     }
 
     fn follow_channel(&mut self, push: &Push) {
-        let (spectrum, duration, stride) = (self.spectrum, self.duration, self.response.stride);
+        let (spectrum, stride) = (self.spectrum, self.response.stride);
+        let course = self.course(push);
         let parts = Parts::of(spectrum, &push.direction);
         let force = ComplexParts::of_real(&parts);
-        let load = Load::channel(push, stride, duration);
+        let load = Load::channel(push, stride, course.length);
+        let mut orders = Orders::new(spectrum);
         let blocks = std::mem::take(&mut self.blocks);
-        for block in blocks.iter().filter(|block| block.is_slow(duration)) {
-            self.add_follower(&load, block, &force);
-        }
-        let groups = self.group_series(&blocks, &parts, &force);
+        self.follow_groups(&blocks, course, &load, (&parts, &force), &mut orders);
         self.blocks = blocks;
-        let mut singles = Vec::with_capacity(self.singles.len());
         let own = std::mem::take(&mut self.singles);
-        for ((block, single), force_on_it) in own.iter().zip(&spectrum.singles).zip(&parts.singles)
-        {
-            let follows = single::has_series(&single.motion, duration) || !block.is_slow(duration);
-            singles.push(if follows {
-                single::series(&single.motion, *force_on_it, stride)
+        for (index, (block, single)) in own.iter().zip(&spectrum.singles).enumerate() {
+            let (motion, pushed) = (&single.motion, parts.singles[index]);
+            let way = if single::has_series(motion, course.length) {
+                Way::Derivatives
             } else {
-                self.add_follower(&load, block, &force);
-                vec![0.0; stride + 2]
-            });
+                block.way(course)
+            };
+            match way {
+                Way::Derivatives => {
+                    let series = single::series(motion, pushed, stride);
+                    orders.set_single(index, -2.., &series);
+                }
+                Way::Integrals(count) => {
+                    let series = integrals::of_single(motion, pushed, count);
+                    orders.set_single(index, below(-2), &series);
+                    self.reach(course);
+                }
+                Way::FromRest => self.add_follower(&load, block, &force, course.length),
+            }
         }
         self.singles = own;
-        self.add_links(push, &groups, &singles);
+        self.add_links(push, orders);
     }
 
-    fn add_links(&mut self, push: &Push, groups: &[Vec<f64>], singles: &[Vec<f64>]) {
+    /// How long the function of a push is a polynomial.
+    fn course(&self, push: &Push) -> Course {
+        let history = &self.forcing.channels()[push.channel].history;
+        let is_table = matches!(history, History::Table(_));
+        Course {
+            length: if is_table {
+                self.times.stretch
+            } else {
+                self.times.duration
+            },
+            is_table,
+        }
+    }
+
+    /// Notes that integrals serve as long as a course goes on.
+    fn reach(&mut self, course: Course) {
+        self.response.reach = self.response.reach.min(course.length);
+    }
+
+    /// Lets the coupled groups follow a force: by the structure's own matrices where all blocks
+    /// follow it in one way, else block by block.
+    fn follow_groups(
+        &mut self,
+        blocks: &[Block],
+        course: Course,
+        load: &Load,
+        (parts, force): (&Parts, &ComplexParts),
+        orders: &mut Orders,
+    ) {
+        let (spectrum, stride) = (self.spectrum, self.response.stride);
+        let forces = &parts.combined[..spectrum.groups];
+        let ways: Vec<Way> = blocks.iter().map(|block| block.way(course)).collect();
+        let most = ways.iter().map(|way| match way {
+            Way::Integrals(count) => *count,
+            _ => 0,
+        });
+        let most = most.max().unwrap_or(0);
+        if most > 0 {
+            self.reach(course);
+        }
+        if let Some(impedance) = self.impedance {
+            if ways.iter().all(|way| *way == Way::Derivatives) {
+                if let Some(series) = series(forces, impedance, stride) {
+                    return orders.set_groups(0.., &series);
+                }
+            } else if ways.iter().all(|way| matches!(way, Way::Integrals(_))) {
+                let series = integrals::of_groups(forces, impedance, most);
+                return orders.set_groups(below(-2), &series);
+            }
+        }
+        for (block, way) in blocks.iter().zip(ways) {
+            match way {
+                Way::Derivatives => block.add_derivatives(spectrum, force, stride, orders),
+                Way::Integrals(_) => block.add_integrals(spectrum, force, most, orders),
+                Way::FromRest => self.add_follower(load, block, force, course.length),
+            }
+        }
+    }
+
+    fn add_links(&mut self, push: &Push, orders: Orders) {
         let spectrum = self.spectrum;
-        for (number, order) in (-2..self.response.stride as i32).enumerate() {
-            let of_groups = usize::try_from(order).ok().and_then(|m| groups.get(m));
-            let mut combined = of_groups.cloned().unwrap_or_default();
-            // Combinations that are alone have numbers behind the groups.
-            combined.resize(spectrum.combinations, 0.0);
-            let parts = Parts {
-                combined,
-                singles: singles.iter().map(|series| series[number]).collect(),
-            };
+        for (order, parts) in orders.all() {
             let row = parts.modes(spectrum, self.modes);
             // A reaction resists a load even where nothing moves.
             let is_resisted = order == 0 && spectrum.held.is_some();
             if is_resisted || row.iter().any(|x| *x != 0.0) {
                 self.response.links.push(Link {
                     channel: push.channel,
+                    pushed: push.order,
                     order: order + push.order as i32,
                     row,
                 });
             }
         }
-    }
-
-    /// The series of the coupled groups under a force, from order 0 on, without what is slow. By
-    /// the structure's own matrices where nothing is, else block by block.
-    fn group_series(&self, blocks: &[Block], parts: &Parts, force: &ComplexParts) -> Vec<Vec<f64>> {
-        let (stride, groups) = (self.response.stride, self.spectrum.groups);
-        let forces = &parts.combined[..groups];
-        let whole = self.impedance.filter(|_| !self.has_slow);
-        let whole = whole.and_then(|impedance| series(forces, impedance, stride));
-        whole.unwrap_or_else(|| {
-            let mut series = vec![vec![0.0; groups]; stride];
-            for block in blocks.iter().filter(|block| !block.is_slow(self.duration)) {
-                block.add_series(self.spectrum, force, &mut series);
-            }
-            series
-        })
     }
 
     fn follow_harmonic(&mut self, number: usize, amplitude: &[Complex<f64>]) {
@@ -169,7 +212,7 @@ impl<'a> Making<'a> {
 
     fn resonates(&self, blocks: &[Block], omega: f64) -> bool {
         let mut sides = blocks.iter().flat_map(Block::sides);
-        sides.any(|side| side.resonates(omega, self.duration))
+        sides.any(|side| side.resonates(omega, self.times.duration))
     }
 
     /// Adds both sides of a block under a harmonic, as followers where they resonate.
@@ -182,20 +225,21 @@ impl<'a> Making<'a> {
         shape: &mut [Complex<f64>],
     ) {
         for side in block.sides() {
-            if side.resonates(omega, self.duration) {
+            if side.resonates(omega, self.times.duration) {
                 let gains = side.gains(self.spectrum, force);
                 let shapes = side.shapes(self.spectrum, self.modes);
-                self.add(load, &side.generator(), &gains, shapes);
+                let duration = self.times.duration;
+                self.add(load, &side.generator(), &gains, shapes, duration);
             } else {
                 side.add_harmonic(self.spectrum, omega, force, shape);
             }
         }
     }
 
-    fn add_follower(&mut self, load: &Load, block: &Block, force: &ComplexParts) {
+    fn add_follower(&mut self, load: &Load, block: &Block, force: &ComplexParts, length: f64) {
         let gains = block.gains(self.spectrum, force);
         let shapes = block.shapes(self.spectrum, self.modes);
-        self.add(load, &block.generator, &gains, shapes);
+        self.add(load, &block.generator, &gains, shapes, length);
     }
 
     fn add(
@@ -204,14 +248,20 @@ impl<'a> Making<'a> {
         generator: &Mat<c64>,
         gains: &[Complex<f64>],
         shapes: Vec<Vec<Complex<f64>>>,
+        length: f64,
     ) {
-        let follower = Follower::new(load, generator, gains, shapes, self.next, self.duration);
+        let follower = Follower::new(load, generator, gains, shapes, self.next, length);
         if let Some((follower, cluster)) = follower {
             self.next += cluster.size;
             self.clusters.push(cluster);
             self.response.followers.push(follower);
         }
     }
+}
+
+/// This order and all below it.
+fn below(order: i32) -> impl Iterator<Item = i32> {
+    (i32::MIN..=order).rev()
 }
 
 /// The series of coupled groups under a force, from order 0 on; `None` where some motion has no

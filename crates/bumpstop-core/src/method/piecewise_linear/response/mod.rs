@@ -8,8 +8,9 @@
 //! ```
 //!
 //! the series of the inverse around s = 0. Where a single motion has no stiffness the series
-//! begins with integrals of f (orders -1 and -2), taken from the start of the phase. A harmonic
-//! load is followed by `(K + i omega C - omega^2)^-1 g exp(i omega t)`: one more exponent of the
+//! begins with integrals of f (orders -1 and -2), taken from the start of the phase. What is slow
+//! beside a stretch between two knots of a table follows it by integrals alone, see [`integrals`]. A
+//! harmonic load is followed by `(K + i omega C - omega^2)^-1 g exp(i omega t)`: one more exponent of the
 //! phase, the same in all modes. What is left, the state less both at the start of the phase, moves
 //! freely. Exponents that are slow beside a polynomial or resonate with a harmonic follow it from
 //! rest instead, see [`follower`].
@@ -17,17 +18,23 @@
 mod block;
 mod drives;
 mod follower;
+mod integrals;
+mod link;
 mod making;
+mod orders;
 mod parts;
 mod single;
+mod stretch;
 
 pub(crate) use drives::Drives;
 pub(crate) use follower::{Follower, Leader};
+pub(crate) use link::Link;
+pub(crate) use stretch::Stretch;
 
 use super::cluster::Cluster;
 use super::impedance::Impedance;
 use super::phase::{Phase, Phases};
-use super::polynomial::{derivative_at, of_derivative};
+use super::polynomial::of_derivative;
 use super::product::Factor;
 use super::rows::{ComplexBlock, set_entry};
 use super::spectrum::Spectrum;
@@ -35,13 +42,17 @@ use crate::forcing::{Forcing, Onset};
 use crate::number::Complex;
 use making::Making;
 
-/// A vector that a derivative of a channel's function moves the modes along.
-#[derive(Debug, Clone)]
-pub(crate) struct Link {
-    pub channel: usize,
-    /// Order of the derivative; integrals are negative.
-    pub order: i32,
-    pub row: Vec<f64>,
+/// So many cells at least lie in the time for which integrals serve: behind it their polynomials,
+/// and the bounds of these, grow fast.
+const CELLS_OF_INTEGRALS: f64 = 4.0;
+
+/// Lengths that tell what is slow, in s.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Times {
+    /// Of the run.
+    pub duration: f64,
+    /// Of the longest stretch between two knots.
+    pub stretch: f64,
 }
 
 /// The response of all modes.
@@ -49,6 +60,8 @@ pub(crate) struct Link {
 pub(crate) struct Response {
     /// Coefficients of each channel.
     pub stride: usize,
+    /// The longest time for which integrals of tables serve, in s; infinite where there are none.
+    pub reach: f64,
     pub links: Vec<Link>,
     /// Where the exponents of the harmonics begin.
     pub at: usize,
@@ -71,10 +84,11 @@ impl Response {
         drives: Drives,
         spectrum: &Spectrum,
         impedance: Option<&Impedance<'_>>,
-        duration: f64,
+        times: Times,
     ) -> (Self, Vec<Cluster>) {
         let mut response = Self {
             stride: forcing.stride(),
+            reach: f64::INFINITY,
             links: Vec::new(),
             at: spectrum.forced_at,
             omegas: forcing.harmonics().iter().map(|h| h.omega).collect(),
@@ -83,7 +97,7 @@ impl Response {
             drives,
             motions: Vec::new(),
         };
-        let clusters = Making::new(&mut response, spectrum, impedance, forcing, duration).follow();
+        let clusters = Making::new(&mut response, spectrum, impedance, forcing, times).follow();
         response.add_motions(forcing);
         (response, clusters)
     }
@@ -94,6 +108,7 @@ impl Response {
                 self.motions.push((self.links.len(), law));
                 self.links.push(Link {
                     channel,
+                    pushed: 0,
                     order: 0,
                     row: vec![0.0; load.direction.len()],
                 });
@@ -130,6 +145,11 @@ impl Response {
             set_entry(&mut rate.amplitudes, self.at + number, turning * unit);
         }
         rate
+    }
+
+    /// A frequency at which cells are short beside the time for which integrals serve, in rad/s.
+    pub(crate) fn pace(&self) -> f64 {
+        CELLS_OF_INTEGRALS / self.reach
     }
 
     /// Numbers in its arrays.
@@ -203,9 +223,12 @@ impl Response {
         v: &mut [f64],
     ) {
         for link in &self.links {
+            if t == 0.0 && link.starts_from_rest() {
+                continue;
+            }
             let channel = &coefficients[link.channel * self.stride..][..self.stride];
-            let value = sign * derivative_at(channel, link.order, t);
-            let slope = sign * derivative_at(channel, link.order + 1, t);
+            let value = sign * link.value(channel, 0, t);
+            let slope = sign * link.value(channel, 1, t);
             for ((q, v), row) in q.iter_mut().zip(v.iter_mut()).zip(&link.row) {
                 *q += row * value;
                 *v += row * slope;

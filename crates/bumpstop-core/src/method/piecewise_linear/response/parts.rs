@@ -6,6 +6,7 @@ use crate::method::piecewise_linear::spectrum::Spectrum;
 use crate::number::Complex;
 
 /// Numbers for the combinations and the singles of a spectrum.
+#[derive(Clone)]
 pub(super) struct Parts {
     pub combined: Vec<f64>,
     pub singles: Vec<f64>,

@@ -29,11 +29,11 @@ pub(super) fn series(motion: &SingleMode, force: f64, orders: usize) -> Vec<f64>
 }
 
 /// Whether the series of a motion without stiffness, which begins with integrals of the load, is as
-/// good as that of one that a damper or a spring holds.
-pub(super) fn has_series(motion: &SingleMode, duration: f64) -> bool {
+/// good as that of one that a damper or a spring holds, under a load that goes on for so long.
+pub(super) fn has_series(motion: &SingleMode, length: f64) -> bool {
     match motion.regime {
         Regime::Free => true,
-        Regime::Coasting => motion.damping * duration > super::block::SLOW,
+        Regime::Coasting => motion.damping * length > super::block::SLOW,
         _ => false,
     }
 }

@@ -3,7 +3,6 @@
 use super::Signal;
 use crate::law::Affine;
 use crate::method::piecewise_linear::phase::{Phase, Phases};
-use crate::method::piecewise_linear::polynomial::of_derivative;
 use crate::method::piecewise_linear::response::Response;
 use crate::method::piecewise_linear::view::View;
 
@@ -26,13 +25,13 @@ impl Signal {
         let coefficients = phases.coefficients(phase);
         for (link, weight) in response.links.iter().zip(&view.links) {
             let channel = &coefficients[link.channel * response.stride..][..response.stride];
-            for (order, factor) in (link.order..).zip(derivatives) {
+            for (rate, factor) in derivatives.into_iter().enumerate() {
                 let weight = weight * factor;
                 if weight == 0.0 {
                     continue;
                 }
-                for power in 0..(response.stride as i32 - order).max(0) as usize {
-                    let term = weight * of_derivative(channel, order, power);
+                for power in link.powers(rate, response.stride) {
+                    let term = weight * link.coefficient(channel, rate, power);
                     self.polynomial.add(power, term);
                 }
             }
