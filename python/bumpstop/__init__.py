@@ -19,8 +19,10 @@ if TYPE_CHECKING:
     from bumpstop.io.meshes import read_mesh
     from bumpstop.io.modes import identify_modes, read_modes
     from bumpstop.io.stored import read_netcdf
+    from bumpstop.laws.circle_stop import CircleStop
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hertz_stop import HertzStop
+    from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
@@ -127,6 +129,7 @@ __all__ = [
     "Campbell",
     "Case",
     "Circle",
+    "CircleStop",
     "ComplexModes",
     "Component",
     "ComputationError",
@@ -166,6 +169,7 @@ __all__ = [
     "Periodicity",
     "Placed",
     "PointMass",
+    "PolarStop",
     "Polynomial",
     "Problem",
     "Product",
@@ -259,6 +263,7 @@ _HOME = {
     "Campbell": "modal.rotor",
     "Case": "io.case",
     "Circle": "structure.sections.circle",
+    "CircleStop": "laws.circle_stop",
     "ComplexModes": "modal.oscillation",
     "Component": "modal.substructure.component",
     "ComputationError": "errors",
@@ -298,6 +303,7 @@ _HOME = {
     "Periodicity": "post.poincare",
     "Placed": "modal.substructure.placed",
     "PointMass": "structure.mass",
+    "PolarStop": "laws.polar_stop",
     "Polynomial": "loads.time",
     "Problem": "problem",
     "Product": "loads.product",

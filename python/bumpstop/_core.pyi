@@ -170,7 +170,36 @@ class ZenerDamper:
         exponent: float,
     ) -> None: ...
 
-Law = Stop | RigidStop | FrictionStop | Spring | HertzStop | ZenerDamper
+class Shape:
+    """The shape of an obstacle about the origin of a plane."""
+
+    @staticmethod
+    def plane(gap: float) -> Shape:
+        """Across the first coordinate."""
+
+    @staticmethod
+    def circle(radius: float, inside: bool) -> Shape:
+        """With the structure inside or outside."""
+
+    @staticmethod
+    def polygon(corners: Sequence[tuple[float, float]]) -> Shape:
+        """Of corners in the order of their angles."""
+
+class ShapedStop:
+    """A stop on an obstacle of a shape, at the place ``origin + rows . q`` of its plane."""
+
+    def __init__(
+        self,
+        rows: Sequence[Array],
+        origin: tuple[float, float],
+        shape: Shape,
+        stiffness: float,
+        damping: float,
+        friction: tuple[float, float, float, float] | None = None,
+    ) -> None:
+        """Friction is (static coefficient, dynamic coefficient, stiffness, damping)."""
+
+Law = Stop | RigidStop | FrictionStop | Spring | HertzStop | ZenerDamper | ShapedStop
 
 class History:
     """What a run leaves behind; it can be sampled anywhere in [0, duration]."""
@@ -204,6 +233,9 @@ class History:
         """Distance in m, its rate in m/s, and force in N of one law, each (time,)."""
     def law_forces(self, law: int, times: Array) -> Array:
         """Force of one law along each of its coordinates in N, (time, coordinate)."""
+    def contact_forces(self, law: int, times: Array) -> Array:
+        """Return the force along the normal of the contact and across it, (time, 3)."""
+
     def law_states(self, law: int, times: Array) -> list[str]:
         """Name of one law's state at each time."""
     def energy(self, times: Array) -> dict[str, Array]:

@@ -169,10 +169,15 @@ def _motions(law: Law, carriers: list[MovingSupports], problem: Problem) -> Iter
         if model is None or not _passes(load, law):
             continue
         field = load.field(model)
+        negligible = _NOTHING * float(np.abs(field).max())
+        for each in getattr(law, "coordinates", ()):
+            if abs(float(each.nodal_force(model) @ field)) > negligible:
+                what = f"cannot follow the supports that {load.name!r} moves"
+                hint = "stops around an axis do not; planes do"
+                raise InputError(what, key=f"{law.table}.{law.name}", hint=hint)
         normal = float(law.coordinate.nodal_force(model) @ field)
         sliding = _sliding(law, problem)
         along = 0.0 if sliding is None else float(sliding @ field)
-        negligible = _NOTHING * float(np.abs(field).max())
         if abs(along) > negligible or (hasattr(law, "restitution") and abs(normal) > negligible):
             what = f"cannot follow the supports that {load.name!r} moves"
             hint = "rigid stops do not, nor contacts that rub along the motion"

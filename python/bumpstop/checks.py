@@ -36,7 +36,11 @@ _KNOWN: WeakKeyDictionary[ModalBasis, dict[bytes, float]] = WeakKeyDictionary()
 
 def contact_warnings(problem: Problem) -> tuple[str, ...]:
     """Return a line for each stop that the basis is too stiff for, or that is pressed at t = 0."""
-    stops = [law for law in problem.laws if isinstance(getattr(law, "gap", None), float)]
+    stops = [
+        law
+        for law in problem.laws
+        if isinstance(getattr(law, "gap", None), float) or hasattr(law, "gap_at")
+    ]
     return (*_too_stiff(problem.basis, stops), *_pressed(problem, stops))
 
 
@@ -110,16 +114,25 @@ def _flexibilities(basis: ModalBasis, rows: FloatArray) -> FloatArray:
     return flexible
 
 
+def _start(basis: ModalBasis, stop: Law, place: FloatArray | None) -> tuple[float, float]:
+    """Return the distance of a stop at rest, and by how much it is more at the start."""
+    if place is None:
+        place = np.zeros(len(basis.omega2))
+    at: Any = getattr(stop, "gap_at", None)
+    if at is not None:
+        rest = at(basis, np.zeros(len(basis.omega2)))
+        return rest, at(basis, place) - rest
+    gap: Any = getattr(stop, "gap", 0.0)
+    return gap, float(stop.coordinate.row(basis) @ place) if place.any() else 0.0
+
+
 def _pressed(problem: Problem, stops: Sequence[Law]) -> Iterator[str]:
     """Yield a line for each stop into which the structure reaches at t = 0."""
     if getattr(problem.initial, "may_press", False):
         return
     place = None if problem.initial is None else problem.initial.modal_state(problem.basis)[0]
     for stop in stops:
-        gap: Any = getattr(stop, "gap", 0.0)
-        moved = 0.0
-        if place is not None and place.any():
-            moved = float(stop.coordinate.row(problem.basis) @ place)
+        gap, moved = _start(problem.basis, stop, place)
         depth = -(gap + moved)
         if depth <= _PRESSED * (abs(gap) + abs(moved)):
             continue

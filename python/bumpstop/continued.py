@@ -86,16 +86,17 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
 
 def _refuse_memory(response: Response, law: Law, instant: float) -> None:
     """Raise where a law remembers what the state of the modes does not tell."""
-    from bumpstop.laws import HertzStop, RigidStop, SpringLaw, Stop
+    from bumpstop.laws import CircleStop, HertzStop, PolarStop, RigidStop, SpringLaw, Stop
 
     # By exact kind: what is made of these may remember more.
-    if type(law) not in (HertzStop, RigidStop, SpringLaw, Stop):
+    known = (CircleStop, HertzStop, PolarStop, RigidStop, SpringLaw, Stop)
+    if type(law) not in known:
         what = "remembers more than the motion tells, and a new run would forget it"
         raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
     if getattr(law, "friction", None) is None:
         return
     state = str(response.sample("state", law.name, times=[instant])[0])
-    if state not in _FREE:
+    if not state.startswith(_FREE):
         what = f"rubs at t = {instant:g} s, and a new run would forget where its spring is anchored"
         hint = "go on from an instant at which it is open"
         raise InputError(what, key=f"{law.table}.{law.name}", value=state, hint=hint)

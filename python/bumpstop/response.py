@@ -315,10 +315,26 @@ class Response:
         """
         return over_time("stop_force", self.times, self.sample("stop_force", name), stop=name)
 
+    def contact_forces(self, name: str) -> xr.DataArray:
+        """Return the force of a stop on the structure by directions of its contact, in N.
+
+        Over ``time`` and ``direction``: ``normal``, ``around`` and ``axial``. A plane's friction is
+        in ``around``, along its sliding direction.
+
+        Raises
+        ------
+        InputError
+            If there is no such stop.
+        """
+        from bumpstop.post.contacts import contact_forces
+
+        return contact_forces(self, name)
+
     def friction_force(self, name: str) -> xr.DataArray:
         """Return the force of a stop on the structure along its sliding direction, in N.
 
-        It is zero for stops without friction.
+        It is zero for stops without friction. Of an obstacle around an axis it is that around the
+        axis; `contact_forces` has that along it too.
 
         Raises
         ------
@@ -474,8 +490,8 @@ class Response:
         return self.history.law_states(self.law_index(law), self._instants(times))
 
     def _friction_force(self, law: str, times: ArrayLike | None) -> FloatArray:
-        forces = self.history.law_forces(self.law_index(law), self._instants(times))
-        return forces[:, 1].copy() if forces.shape[1] > 1 else np.zeros(len(forces))
+        forces = self.history.contact_forces(self.law_index(law), self._instants(times))
+        return forces[:, 1].copy()
 
     def _along(self, row: FloatArray, derivative: int, times: ArrayLike | None) -> FloatArray:
         """Return a row (N,) times the modal motion."""

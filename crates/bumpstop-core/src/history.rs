@@ -213,7 +213,8 @@ impl<L: Law> History<L> {
             let (distance, speed) = which.distance(&position, &rate);
             columns[0].push(distance);
             columns[1].push(speed);
-            columns[2].push(self.force_at(law, time, q, v, states)[0]);
+            let force = self.force_at(law, time, q, v, states);
+            columns[2].push(which.on_contact(states[law], &position, &force)[0]);
         });
         Ok(columns)
     }
@@ -228,6 +229,21 @@ impl<L: Law> History<L> {
         let mut forces = Vec::with_capacity(times.len());
         self.visit(times, |time, q, v, states| {
             forces.push(self.force_at(law, time, q, v, states));
+        });
+        Ok(forces)
+    }
+
+    /// The same along the normal of the contact and across it.
+    ///
+    /// # Errors
+    /// When a time lies outside `[0, duration]`.
+    pub fn contact_forces(&self, law: usize, times: &[f64]) -> Result<Vec<Local<f64>>> {
+        self.check_times(times)?;
+        let mut forces = Vec::with_capacity(times.len());
+        self.visit(times, |time, q, v, states| {
+            let [position, _] = self.problem.local(law, time, q, v);
+            let force = self.force_at(law, time, q, v, states);
+            forces.push(self.problem.laws[law].on_contact(states[law], &position, &force));
         });
         Ok(forces)
     }
@@ -310,11 +326,12 @@ impl<L: Law> History<L> {
         self.visit(times, |time, q, v, states| {
             let (position, rate) = (project(which, q), project(which, v));
             let (distance, speed) = which.distance(&position, &rate);
+            let force = which.force(states[law], &position, &rate);
             samples.push(Sample {
                 time,
                 distance,
                 speed,
-                force: which.force(states[law], &position, &rate)[0],
+                force: which.on_contact(states[law], &position, &force)[0],
                 in_contact: which.in_contact(states[law]),
             });
         });

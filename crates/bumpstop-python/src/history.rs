@@ -170,6 +170,22 @@ impl History {
         Ok(Array2::from_shape_fn((times.len(), count), of).into_pyarray(py))
     }
 
+    /// The same along the normal of the contact and across it.
+    fn contact_forces<'py>(
+        &self,
+        py: Python<'py>,
+        law: usize,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.check_law(law)?;
+        let times = values(&times);
+        let forces = self
+            .read(py, |h| h.contact_forces(law, &times))
+            .map_err(core_error)?;
+        let of = |(time, coordinate): (usize, usize)| forces[time][coordinate];
+        Ok(Array2::from_shape_fn((times.len(), 3), of).into_pyarray(py))
+    }
+
     fn law_states(
         &self,
         py: Python<'_>,

@@ -3,7 +3,7 @@
 use crate::core_error;
 use bumpstop_core::error::Result;
 use bumpstop_core::forcing::{self, Beyond, Table};
-use bumpstop_core::{law, system};
+use bumpstop_core::{law, obstacle, system};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
@@ -244,6 +244,72 @@ impl ZenerDamper {
     }
 }
 
+/// The shape of an obstacle about the origin of a plane.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct Shape(pub obstacle::Shape);
+
+#[pymethods]
+impl Shape {
+    /// Across the first coordinate, at a distance.
+    #[staticmethod]
+    fn plane(gap: f64) -> Self {
+        Self(obstacle::Shape::Plane(obstacle::Plane { gap }))
+    }
+
+    /// With the structure inside or outside.
+    #[staticmethod]
+    fn circle(radius: f64, inside: bool) -> PyResult<Self> {
+        let circle = if inside {
+            obstacle::Circle::around(radius)
+        } else {
+            obstacle::Circle::beside(radius)
+        };
+        circle
+            .map(|circle| Self(obstacle::Shape::Circle(circle)))
+            .map_err(core_error)
+    }
+
+    /// Of corners in the order of their angles.
+    #[staticmethod]
+    #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+    fn polygon(corners: Vec<[f64; 2]>) -> PyResult<Self> {
+        obstacle::Polygon::new(&corners)
+            .map(|polygon| Self(obstacle::Shape::Polygon(polygon)))
+            .map_err(core_error)
+    }
+}
+
+/// A stop on an obstacle of a shape, at the place `origin + rows . q` of its plane.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct ShapedStop(pub law::ShapedStop);
+
+#[pymethods]
+impl ShapedStop {
+    /// Friction is (static coefficient, dynamic coefficient, stiffness, damping).
+    #[new]
+    #[pyo3(signature = (rows, origin, shape, stiffness, damping, friction=None))]
+    #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+    fn new(
+        rows: Vec<Column<'_>>,
+        origin: [f64; 2],
+        shape: PyRef<'_, Shape>,
+        stiffness: f64,
+        damping: f64,
+        friction: Option<[f64; 4]>,
+    ) -> PyResult<Self> {
+        let friction = friction.map(|[static_, dynamic, stiffness, damping]| law::Friction {
+            static_coefficient: static_,
+            dynamic_coefficient: dynamic,
+            stiffness,
+            damping,
+        });
+        let rows = rows.iter().map(values).collect();
+        law::ShapedStop::new(rows, origin, shape.0.clone(), stiffness, damping, friction)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
 /// A law of any kind, as Python hands it over.
 #[derive(FromPyObject)]
 pub enum LawPart<'py> {
@@ -253,6 +319,7 @@ pub enum LawPart<'py> {
     RigidStop(PyRef<'py, RigidStop>),
     HertzStop(PyRef<'py, HertzStop>),
     ZenerDamper(PyRef<'py, ZenerDamper>),
+    ShapedStop(PyRef<'py, ShapedStop>),
 }
 
 impl LawPart<'_> {
@@ -265,6 +332,7 @@ impl LawPart<'_> {
             Self::RigidStop(law) => law.0.clone().into(),
             Self::HertzStop(law) => law.0.clone().into(),
             Self::ZenerDamper(law) => law.0.clone().into(),
+            Self::ShapedStop(law) => law.0.clone().into(),
         }
     }
 }

@@ -7,18 +7,31 @@ from typing import TYPE_CHECKING
 from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from bumpstop.laws.circle_stop import CircleStop
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hertz_stop import HertzStop
+    from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
     from bumpstop.laws.zener_damper import ZenerDamper
 
-__all__ = ["Friction", "HertzStop", "RigidStop", "SpringLaw", "Stop", "ZenerDamper"]
+__all__ = [
+    "CircleStop",
+    "Friction",
+    "HertzStop",
+    "PolarStop",
+    "RigidStop",
+    "SpringLaw",
+    "Stop",
+    "ZenerDamper",
+]
 
 _HOME = {
+    "CircleStop": "circle_stop",
     "Friction": "friction",
     "HertzStop": "hertz_stop",
+    "PolarStop": "polar_stop",
     "RigidStop": "rigid_stop",
     "SpringLaw": "spring",
     "Stop": "stop",

@@ -18,16 +18,41 @@ from bumpstop.quantities import COUNTED_IMPACTS
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
     from bumpstop.response import Response
 
-__all__ = ["contact_impacts", "counted_impacts", "labelled_columns", "loaded_spans"]
+__all__ = [
+    "contact_forces",
+    "contact_impacts",
+    "counted_impacts",
+    "labelled_columns",
+    "loaded_spans",
+]
 
 Index: TypeAlias = NDArray[np.intp]
+DIRECTIONS = ("normal", "around", "axial")
+"""Along the normal of a contact, and the two across it."""
 GRID = 65
 """Points of a smooth stretch of a contact at which crossings of the threshold are looked for."""
 BISECTIONS = 54
 """Halvings of a step of that grid: what is left is rounding."""
+
+
+def contact_forces(response: Response, stop: str) -> xr.DataArray:
+    """Return the forces of a stop by directions of its contact; see `Response.contact_forces`."""
+    import xarray as xr
+
+    from bumpstop.labelled import time_coordinate
+
+    law = response.law_index(stop)
+    return xr.DataArray(
+        response.history.contact_forces(law, response.times),
+        dims=("time", "direction"),
+        coords={"time": time_coordinate(response.times), "direction": list(DIRECTIONS)},
+        name="contact_forces",
+        attrs={"units": "N", "long_name": "force of the contact on the structure", "stop": stop},
+    )
 
 
 def contact_impacts(

@@ -151,6 +151,10 @@ class Forces:
 
     def _along(self, law: Law) -> Iterator[FloatArray]:
         """Yield unit forces along the coordinates of a law, in the order of the core's."""
+        several = getattr(law, "coordinates", None)
+        if several is not None:
+            yield from (each.nodal_force(self.model) for each in several)
+            return
         yield law.coordinate.nodal_force(self.model)
         if getattr(law, "friction", None) is not None:
             from bumpstop.laws.friction import sliding_coordinate

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,6 +28,12 @@ def sliding_speed(response: Response, law: int) -> Callable[[FloatArray], FloatA
         rows = along.row(response.problem.basis)[np.newaxis]
         return lambda times: np.abs(_seen(response, of, [along], rows, 1)(times)[:, 0])
     velocity = motion_at_obstacle(response, law, TRANSLATIONS, 1)
+    # Few laws have it: an obstacle whose normal turns.
+    around: Any = getattr(of, "sliding_speeds", None)
+    if around is not None:
+        place = motion_at_obstacle(response, law, TRANSLATIONS, 0)
+        basis = response.problem.basis
+        return lambda times: np.asarray(around(basis, place(times), velocity(times)))
     normal = np.asarray(of.coordinate.direction)
 
     def speed(times: FloatArray) -> FloatArray:

@@ -6,7 +6,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.laws import Friction, HertzStop, RigidStop, SpringLaw, Stop, ZenerDamper
+from bumpstop.laws import (
+    CircleStop,
+    Friction,
+    HertzStop,
+    PolarStop,
+    RigidStop,
+    SpringLaw,
+    Stop,
+    ZenerDamper,
+)
+from bumpstop.laws.shaped_stop import ShapedStop
 from bumpstop.loads import (
     BaseMotion,
     Gravity,
@@ -226,7 +236,7 @@ def _stop(law: Stop) -> str:
     )
 
 
-def _friction(law: Stop) -> str:
+def _friction(law: Stop | ShapedStop) -> str:
     if law.friction is None or law.tangential_stiffness is None:
         return ""
     friction = Friction.of(law.friction)
@@ -267,7 +277,21 @@ def _law(law: Law) -> str:
         force = f"{significant(law.stiffness, 4)} N/m^{_plain(law.exponent)}"
         damping = f", {with_unit(law.hunt_crossley, 's/m')}" if law.hunt_crossley else ""
         return f"{law.name}: a {law.obstacle} {_pushing(law.coordinate)}, {gap}, {force}{damping}"
+    if isinstance(law, ShapedStop):
+        return _shaped(law)
     return law.name
+
+
+def _shaped(law: ShapedStop) -> str:
+    where = f"{_where(law.coordinate)} about {_vector(law.axis)}"
+    damping = f", {with_unit(law.damping, 'N s/m')}" if law.damping else ", no damping"
+    size = ""
+    if isinstance(law, CircleStop):
+        size = f", {law.side}, reached at {with_unit(law.reach, 'm')}"
+    elif isinstance(law, PolarStop):
+        size = f" of {len(law.profile):,} sides"
+    force = f"{with_unit(law.stiffness, 'N/m')}{damping}{_friction(law)}"
+    return f"{law.name}: a {law.obstacle} {where}{size}, {force}"
 
 
 def _load(load: Load) -> str:

@@ -2,7 +2,7 @@
 
 use super::{
     Constraint, FrictionStop, Guard, HertzStop, Law, Local, LocalMotion, Piece, Power, RigidStop,
-    Spring, State, Stop, ZenerDamper,
+    ShapedStop, Spring, State, Stop, ZenerDamper,
 };
 use crate::number::Number;
 use std::borrow::Cow;
@@ -22,6 +22,8 @@ pub enum AnyLaw {
     HertzStop(HertzStop),
     /// Springs around a nonlinear dashpot.
     ZenerDamper(ZenerDamper),
+    /// An obstacle of any shape.
+    ShapedStop(ShapedStop),
 }
 
 impl From<Stop> for AnyLaw {
@@ -60,6 +62,12 @@ impl From<ZenerDamper> for AnyLaw {
     }
 }
 
+impl From<ShapedStop> for AnyLaw {
+    fn from(stop: ShapedStop) -> Self {
+        Self::ShapedStop(stop)
+    }
+}
+
 /// Asks the law inside.
 macro_rules! ask {
     ($self:ident, $law:ident => $answer:expr) => {
@@ -70,6 +78,7 @@ macro_rules! ask {
             Self::RigidStop($law) => $answer,
             Self::HertzStop($law) => $answer,
             Self::ZenerDamper($law) => $answer,
+            Self::ShapedStop($law) => $answer,
         }
     };
 }
@@ -105,6 +114,16 @@ impl Law for AnyLaw {
     #[inline(always)]
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
         ask!(self, law => law.force(state, position, velocity))
+    }
+
+    #[inline(always)]
+    fn on_contact<T: Number>(
+        &self,
+        state: State,
+        position: &Local<T>,
+        force: &Local<T>,
+    ) -> Local<T> {
+        ask!(self, law => law.on_contact(state, position, force))
     }
 
     #[inline(always)]
@@ -170,6 +189,17 @@ impl Law for AnyLaw {
         velocity: &Local<T>,
     ) -> T {
         ask!(self, law => law.guard_value(state, index, position, velocity))
+    }
+
+    fn flowing_guard<T: Number>(
+        &self,
+        state: State,
+        index: usize,
+        position: &Local<T>,
+        velocity: &Local<T>,
+        memory: &[T; 2],
+    ) -> T {
+        ask!(self, law => law.flowing_guard(state, index, position, velocity, memory))
     }
 
     fn next_state(

@@ -31,7 +31,7 @@ pub struct Friction {
 }
 
 impl Friction {
-    fn check(&self) -> Result<()> {
+    pub(super) fn check(&self) -> Result<()> {
         let numbers = [
             (
                 "the static coefficient of friction",

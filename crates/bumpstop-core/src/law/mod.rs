@@ -12,6 +12,8 @@ mod any;
 mod friction_stop;
 mod hertz_stop;
 mod rigid_stop;
+mod rubbing;
+mod shaped_stop;
 mod spring;
 mod state;
 mod stop;
@@ -22,6 +24,7 @@ pub use any::AnyLaw;
 pub use friction_stop::{Friction, FrictionStop};
 pub use hertz_stop::HertzStop;
 pub use rigid_stop::RigidStop;
+pub use shaped_stop::ShapedStop;
 pub use spring::Spring;
 pub use state::{LocalMotion, State};
 pub use stop::Stop;
@@ -156,6 +159,18 @@ pub trait Law: Clone + Send + Sync {
     /// Force on the structure in local coordinates, in N.
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T>;
 
+    /// A force of a state along the normal of its contact and across it, for laws whose coordinates
+    /// do not run so.
+    #[inline(always)]
+    fn on_contact<T: Number>(
+        &self,
+        _state: State,
+        _position: &Local<T>,
+        force: &Local<T>,
+    ) -> Local<T> {
+        *force
+    }
+
     /// The plain stop that the law is, if it is one: what is done at each of many steps has code
     /// of its own for them.
     fn as_stop(&self) -> Option<&Stop> {
@@ -168,7 +183,7 @@ pub trait Law: Clone + Send + Sync {
     }
 
     /// Whether the memory of states follows rate equations. States are then handed to the law with
-    /// the memory of the instant; guards are to depend on none of it.
+    /// the memory of the instant; of guards only [`Law::flowing_guard`] sees how it goes on.
     fn flows(&self) -> bool {
         false
     }
@@ -236,6 +251,18 @@ pub trait Law: Clone + Send + Sync {
         velocity: &Local<T>,
     ) -> T {
         self.guard(state, index).function.at(position, velocity)
+    }
+
+    /// The value of a guard that depends on a memory that flows, in the adaptive methods alone.
+    fn flowing_guard<T: Number>(
+        &self,
+        state: State,
+        index: usize,
+        position: &Local<T>,
+        velocity: &Local<T>,
+        _memory: &[T; 2],
+    ) -> T {
+        self.guard_value(state, index, position, velocity)
     }
 
     /// The state that follows when a guard has reached zero. `acting` tells the local motion at

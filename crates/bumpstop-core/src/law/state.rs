@@ -9,6 +9,8 @@ use super::{COORDINATES, Local};
 pub struct State {
     /// Which of the law's states it is.
     pub number: u8,
+    /// Which part of its obstacle it is at; 0 for laws without parts.
+    pub part: u16,
     /// Internal variables, such as the anchor of a friction spring; zero for laws without.
     pub memory: [f64; 2],
 }
@@ -24,7 +26,11 @@ impl State {
 
     /// A state with its internal variables.
     pub const fn with_memory(number: u8, memory: [f64; 2]) -> Self {
-        Self { number, memory }
+        Self {
+            number,
+            part: 0,
+            memory,
+        }
     }
 }
 

@@ -196,15 +196,28 @@ pub(crate) fn force_rate<L: Law>(
         };
         return rate.force(&velocity, &acceleration);
     }
-    let along = |values: Local<f64>, slopes: Local<f64>| {
-        std::array::from_fn(|i| Dual {
-            value: values[i],
-            slope: slopes[i],
-        })
-    };
     let (position, velocity) = (along(position, velocity), along(velocity, acceleration));
     law.force(state, &position, &velocity)
         .map(|force| force.slope)
+}
+
+/// The rate of a law's force along the normal of its contact; see [`force_rate`].
+pub(crate) fn push_rate<L: Law>(law: &L, state: State, motion: [Local<f64>; 3]) -> f64 {
+    if law.piece(state).is_some() {
+        return force_rate(law, state, motion)[0];
+    }
+    let [position, velocity, acceleration] = motion;
+    let (position, velocity) = (along(position, velocity), along(velocity, acceleration));
+    let force = law.force(state, &position, &velocity);
+    law.on_contact(state, &position, &force)[0].slope
+}
+
+/// Local numbers with their rates.
+fn along(values: Local<f64>, slopes: Local<f64>) -> Local<Dual> {
+    std::array::from_fn(|i| Dual {
+        value: values[i],
+        slope: slopes[i],
+    })
 }
 
 /// The laws with their numbers, without one where that is told, and their states.

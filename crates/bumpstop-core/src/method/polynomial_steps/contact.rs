@@ -4,7 +4,7 @@ use super::record::{PolynomialRecord, Reading, Step};
 use crate::dynamics::Moment;
 use crate::impacts::Impact;
 use crate::law::{Law, Local, project};
-use crate::method::instant::force_rate;
+use crate::method::instant::push_rate;
 use crate::method::piecewise_linear::quadrature::panel;
 use crate::problem::Problem;
 
@@ -112,8 +112,10 @@ impl<'a, L: Law> ContactReader<'a, L> {
     fn look(&mut self, number: usize, time: f64) -> [f64; 2] {
         let [position, velocity] = self.local(number, time);
         let law = &self.problem.laws[self.law];
-        let force = law.force(self.reading.states[self.law], &position, &velocity)[0];
-        [force, law.distance(&position, &velocity).1]
+        let state = self.reading.states[self.law];
+        let force = law.force(state, &position, &velocity);
+        let push = law.on_contact(state, &position, &force)[0];
+        [push, law.distance(&position, &velocity).1]
     }
 
     fn speed(&mut self, number: usize, time: f64) -> f64 {
@@ -142,6 +144,6 @@ impl<'a, L: Law> ContactReader<'a, L> {
         if self.problem.forcing.varies() {
             acceleration[0] -= self.problem.forcing.motion(self.law, time)[2];
         }
-        force_rate(law, states[self.law], [position, velocity, acceleration])[0]
+        push_rate(law, states[self.law], [position, velocity, acceleration])
     }
 }

@@ -50,8 +50,8 @@ impl<L: Law> Curve<'_, L> {
     fn value(&self, track: &Track, theta: f64) -> f64 {
         let at = |parts: &[Bernstein; COORDINATES]| parts.map(|part| part.at(theta));
         let (position, velocity) = (at(&track.position), at(&track.velocity));
-        self.law
-            .guard_value(self.state, self.guard, &position, &velocity)
+        let memory = track.memory.map(|part| part.at(theta));
+        (self.law).flowing_guard(self.state, self.guard, &position, &velocity, &memory)
     }
 
     /// Down to where it is zero.
@@ -61,12 +61,15 @@ impl<L: Law> Curve<'_, L> {
 
     fn enclosure(&self, track: &Track) -> Enclosure {
         let width = track.width();
-        let on = |parts: &[Bernstein; COORDINATES]| -> Local<Enclosure> {
-            parts.map(|part| enclosed(&part, width))
-        };
-        let (position, velocity) = (on(&track.position), on(&track.velocity));
-        self.law
-            .guard_value(self.state, self.guard, &position, &velocity)
+        let on =
+            |parts: &[Bernstein; COORDINATES], sizes: &[f64; COORDINATES]| -> Local<Enclosure> {
+                std::array::from_fn(|c| enclosed(&parts[c], width, sizes[c]))
+            };
+        let [positions, velocities] = track.sizes();
+        let position = on(&track.position, positions);
+        let velocity = on(&track.velocity, velocities);
+        let memory = track.memory.map(|part| enclosed(&part, width, 0.0));
+        (self.law).flowing_guard(self.state, self.guard, &position, &velocity, &memory)
     }
 
     fn bound(&self, track: &Track) -> Bound {
@@ -103,8 +106,9 @@ impl<L: Law> Curve<'_, L> {
     }
 }
 
-/// The jet of a polynomial about the middle of a stretch of some width.
-fn enclosed(polynomial: &Bernstein, width: f64) -> Enclosure {
+/// The jet of a polynomial about the middle of a stretch of some width; `size` is that of what its
+/// coefficients were summed of.
+fn enclosed(polynomial: &Bernstein, width: f64, size: f64) -> Enclosure {
     let slope = polynomial.derivative();
     let curvature = slope.derivative();
     let third = curvature.derivative();
@@ -113,7 +117,7 @@ fn enclosed(polynomial: &Bernstein, width: f64) -> Enclosure {
         slope: slope.at(0.5) / width,
         curvature: curvature.at(0.5) / (width * width),
         third: third.size() / width.powi(3),
-        rounding: f64::EPSILON * polynomial.size(),
+        rounding: f64::EPSILON * polynomial.size().max(size),
         ..Jet::default()
     };
     Enclosure::new(jet, 0.5 * width)

@@ -66,7 +66,10 @@ impl Layout {
     /// A law's state with the memory that the numbers tell.
     pub(crate) fn state(&self, law: usize, state: State, numbers: &[f64]) -> State {
         match self.memories[law] {
-            Some(at) => State::with_memory(state.number, [numbers[at], numbers[at + 1]]),
+            Some(at) => State {
+                memory: [numbers[at], numbers[at + 1]],
+                ..state
+            },
             None => state,
         }
     }

@@ -50,6 +50,8 @@ pub(crate) struct Watch {
 pub(crate) struct Track {
     pub position: [Bernstein; COORDINATES],
     pub velocity: [Bernstein; COORDINATES],
+    /// The law's memory where that flows.
+    pub memory: [Bernstein; 2],
     /// Sizes of what both were summed of.
     sizes: [[f64; COORDINATES]; 2],
     h: f64,
@@ -142,6 +144,7 @@ impl Watch {
         let mut track = Track {
             position: [zero; COORDINATES],
             velocity: [zero; COORDINATES],
+            memory: [zero; 2],
             sizes: [[0.0; COORDINATES]; 2],
             h: step.h,
         };
@@ -160,6 +163,13 @@ impl Watch {
                     if k < 2 {
                         sizes[c] += size;
                     }
+                }
+            }
+        }
+        if let Some(at) = layout.memories[index] {
+            for (numbers, product) in step.dense.each().zip(basis) {
+                for (memory, number) in track.memory.iter_mut().zip(&numbers[at..]) {
+                    memory.add(*number, product);
                 }
             }
         }
@@ -219,8 +229,16 @@ impl Track {
             [left.position[c], right.position[c]] = self.position[c].halves();
             [left.velocity[c], right.velocity[c]] = self.velocity[c].halves();
         }
+        for (m, memory) in self.memory.iter().enumerate() {
+            [left.memory[m], right.memory[m]] = memory.halves();
+        }
         (left.h, right.h) = (0.5 * self.h, 0.5 * self.h);
         [left, right]
+    }
+
+    /// Sizes of what the positions, and the velocities, were summed of.
+    pub(crate) fn sizes(&self) -> &[[f64; COORDINATES]; 2] {
+        &self.sizes
     }
 
     /// Its length in s.

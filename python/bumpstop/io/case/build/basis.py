@@ -95,5 +95,11 @@ def _stop_places(stop: StopTable) -> list[Place]:
     """Return where a stop pushes; what it lacks is told when the stop is made."""
     if stop.terms is not None:
         return [(node, dof) for node, weights in stop.terms.items() for dof in weights]
-    nodes = [node for node in (stop.node, stop.other) if node is not None]
-    return [] if stop.normal is None else [(node, stop.normal) for node in nodes]
+    nodes = [node for node in (stop.node, *(stop.nodes or ()), stop.other) if node is not None]
+    directions = [] if stop.normal is None else [stop.normal]
+    if stop.axis is not None:
+        from bumpstop.laws.shaped_stop import plane_axes
+
+        first, second, _ = plane_axes(stop.axis, stop.roll or 0.0).tolist()
+        directions = [tuple(first), tuple(second)]
+    return [(node, direction) for node in nodes for direction in directions]

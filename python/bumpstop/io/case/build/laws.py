@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,6 +36,8 @@ POWER = ("exponent", "hunt_crossley")
 """What makes a stop one whose force is a power of its depth."""
 NOT_POWER = tuple(key for key in ELASTIC if key not in ("stiffness", "motion", "frame"))
 """What such a stop cannot have."""
+SHAPED = ("axis", "roll", "centre", "radius", "body_radius", "side", "profile")
+"""What obstacles about an axis alone have."""
 
 
 def built_laws(case: CaseFile, folder: Path) -> list[Law]:
@@ -43,11 +45,25 @@ def built_laws(case: CaseFile, folder: Path) -> list[Law]:
     laws: list[Law] = []
     for name, table in case.stops.items():
         with keyed(f"stops.{name}"):
-            laws.append(_stop(name, table, folder))
+            laws.extend(_stops(name, table, folder))
     for name, law in case.laws.items():
         with keyed(f"laws.{name}"):
             laws.append(_connection(name, law))
     return laws
+
+
+def _stops(name: str, table: StopTable, folder: Path) -> Iterator[Law]:
+    """Yield the stop of a table, or those of its nodes and of both its planes."""
+    if table.nodes is None and table.obstacle == "plane":
+        yield _stop(name, table, folder)
+        return
+    from bumpstop.io.case.build.shapes import AROUND, faces, shaped_stop
+
+    for own, each in faces(name, table):
+        if each.obstacle in AROUND:
+            yield shaped_stop(own, _given(each))
+        else:
+            yield _stop(own, each, folder)
 
 
 def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop | HertzStop:
@@ -55,6 +71,9 @@ def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop | Hertz
     from bumpstop.io.case.fields.laws import contact_stiffness
 
     given = _given(table)
+    _refuse(given, SHAPED, "a plane", 'take obstacle = "circle" or "polar"')
+    for key in ("half_thickness", "other_half_thickness"):
+        given["gap"] -= given.pop(key, 0.0)
     if table.motion is not None:
         with keyed("motion"):
             given["motion"] = _motion(table.motion, folder)

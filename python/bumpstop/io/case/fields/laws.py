@@ -16,12 +16,14 @@ __all__ = [
     "Curve",
     "Deformations",
     "FrictionCoefficients",
+    "Profile",
     "Sliding",
     "Slopes",
     "contact_stiffness",
 ]
 
 _COEFFICIENT = Dimension("a pure number", "", "0.2")
+_TURN = Dimension("an angle", "rad", "30 deg")
 _DEFORMATION = Dimension("a length", "m", "2 mm")
 _FORCE = Dimension("a force", "N", "5 kN")
 _SLOPE = Dimension("a stiffness", "N/m", "18 kN/m")
@@ -101,6 +103,16 @@ def _read_curve(value: object) -> list[tuple[float, float]]:
     return read_list(value, _read_point, "points [deformation, force]")
 
 
+def _read_profile(value: object) -> list[tuple[float, float]]:
+    return read_list(value, _read_corner, "corners [angle, radius]")
+
+
+def _read_corner(value: object) -> tuple[float, float]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError("must be an angle and a radius", value=value)
+    return read_number(value[0], _TURN), read_number(value[1], _DEFORMATION)
+
+
 def _read_point(value: object) -> tuple[float, float]:
     if not isinstance(value, list) or len(value) != 2:
         raise InputError("must be a deformation and a force", value=value)
@@ -142,4 +154,8 @@ Deformations = Annotated[list[float], Plain(_read_deformations, _LIST)]
 Curve = Annotated[
     list[tuple[float, float]],
     Plain(_read_curve, {"type": "array", "items": _POINT, "minItems": 2}),
+]
+Profile = Annotated[
+    list[tuple[float, float]],
+    Plain(_read_profile, {"type": "array", "items": _POINT, "minItems": 3}),
 ]

@@ -2,17 +2,25 @@
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from bumpstop.io.case.fields.laws import ContactStiffness, FrictionCoefficients, Sliding
+from bumpstop.io.case.fields.laws import (
+    ContactStiffness,
+    FrictionCoefficients,
+    Profile,
+    Sliding,
+)
 from bumpstop.io.case.fields.quantities import (
+    Angle,
     DampingConstant,
     InverseSpeed,
     Length,
+    Length3,
     Number3,
+    PositiveLength,
     PositiveNumber,
     Ratio,
     Stiffness,
 )
-from bumpstop.io.case.fields.words import Node, OneDof, choice
+from bumpstop.io.case.fields.words import Node, Nodes, OneDof, choice
 from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.table import Field, Table
 
@@ -32,14 +40,53 @@ class StopTable(Table):
     """
 
     node: Node | None = Field(default=None, description="The node that it stops")
-    obstacle: Annotated[str, choice("plane")] = Field(
-        default="plane", description="Shape of the obstacle"
+    nodes: Nodes | None = Field(
+        default=None,
+        description="Instead of node: several nodes, each of which it stops alike; the stop of "
+        "node B is called NAME.B",
+    )
+    obstacle: Annotated[str, choice("plane", "two_planes", "circle", "polar")] = Field(
+        default="plane",
+        description="Shape of the obstacle: a plane; two that face each other, as the stops NAME+, "
+        "which pushes along the normal, and NAME-; a circle, or a polygon r(angle), about an axis",
     )
     normal: Number3 | None = Field(
         default=None, description="Direction in which the obstacle pushes the structure"
     )
     other: Node | None = Field(
         default=None, description="A node that carries the obstacle; else it is fixed"
+    )
+    axis: Number3 | None = Field(
+        default=None, description="Axis of a circle or a polar profile, instead of a normal"
+    )
+    roll: Angle | None = Field(
+        default=None,
+        description="Angle about the axis from the part of the y axis across it (of the z axis "
+        "where the axis is along y) to the first direction of the obstacle's plane",
+    )
+    centre: Length3 | None = Field(
+        default=None,
+        description="Place at rest of a circle's or a profile's centre from the node; the node's "
+        "own place where left out, or that of the other node",
+    )
+    radius: PositiveLength | None = Field(
+        default=None, description="Radius of a circle; where left out its gap all around is told"
+    )
+    body_radius: Length | None = Field(
+        default=None, description="Radius of the body at the node, in a circle or beside one"
+    )
+    side: Annotated[str, choice("inside", "outside")] | None = Field(
+        default=None, description="On which side of the circle the node is; inside where left out"
+    )
+    profile: Profile | None = Field(
+        default=None,
+        description="Corners [angle, radius] of a polar profile, in rad and m, angles increasing",
+    )
+    half_thickness: Length | None = Field(
+        default=None, description="Of the body at the node, before planes: taken off the gap"
+    )
+    other_half_thickness: Length | None = Field(
+        default=None, description="Of the body that carries the planes: taken off the gap, too"
     )
     terms: dict[Node, dict[OneDof, Length]] | None = Field(
         default=None,
@@ -96,13 +143,20 @@ class StopTable(Table):
     tangential_stiffness: Stiffness | None = Field(
         default=None, description="Stiffness of a contact that sticks, in N/m; friction needs it"
     )
-    tangential_damping: DampingConstant = Field(
-        default=0.0, description="Damping of a contact that sticks, in N s/m"
+    tangential_damping: DampingConstant | None = Field(
+        default=None,
+        description="Damping of a contact that sticks, in N s/m; where left out none with a plane, "
+        "and critical damping with obstacles about an axis",
     )
 
     @classmethod
     def rules(cls) -> dict[str, Any]:
         """Return that a stop has a node and normal or terms, and a stiffness or restitution."""
-        place = [{"required": ["node", "normal"]}, {"required": ["terms"]}]
+        node = [{"required": ["node"]}, {"required": ["nodes"]}]
+        place = [
+            {"required": ["normal"], "oneOf": node},
+            {"required": ["axis"], "oneOf": node},
+            {"required": ["terms"]},
+        ]
         kind = [{"required": ["stiffness"]}, {"required": ["restitution"]}]
         return {"allOf": [{"oneOf": place}, {"oneOf": kind}]}

@@ -1,0 +1,250 @@
+"""What stops on round and polygonal obstacles have: a plane of contact, and friction in it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from bumpstop.arguments import FloatArray, Vector, finite, name, not_negative, positive, vector
+from bumpstop.errors import InputError
+from bumpstop.laws.coordinate import Coordinate, unit
+from bumpstop.laws.friction import Friction
+from bumpstop.projection import TRANSLATIONS, direction_row
+
+if TYPE_CHECKING:
+    from bumpstop import _core
+    from bumpstop.modal.basis import ModalBasis
+
+__all__ = ["ShapedStop", "plane_axes"]
+
+ACROSS = 1e-9
+"""Components of an axis, relative to its length, along which no second axis is looked for."""
+
+
+@dataclass(frozen=True)
+class ShapedStop(ABC):
+    """A spring and damper behind an obstacle that lies around, or beside, an axis.
+
+    Each kind says in its own words what its obstacle is.
+    """
+
+    table: ClassVar[str] = "stops"
+    """Where a problem keeps it, in words for messages."""
+    smooth: ClassVar[str]
+    """Why it is not piecewise linear."""
+    obstacle: ClassVar[str]
+    """What its obstacle is, in words for reports."""
+
+    name: str
+    _: KW_ONLY
+    node: str
+    axis: Vector
+    roll: float = 0.0
+    other: str | None = None
+    centre: Vector | None = None
+    stiffness: float
+    damping: float = 0.0
+    friction: float | Mapping[str, float] | Friction | None = None
+    tangential_stiffness: float | None = None
+    tangential_damping: float | None = None
+
+    def __post_init__(self) -> None:
+        name("name", self.name)
+        object.__setattr__(self, "axis", unit("axis", self.axis))
+        object.__setattr__(self, "roll", finite("roll", self.roll))
+        if self.centre is not None:
+            object.__setattr__(self, "centre", vector("centre", self.centre))
+        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
+        object.__setattr__(self, "damping", not_negative("damping", self.damping))
+        assert self.coordinate  # checks the nodes
+        self._check_friction()
+
+    @cached_property
+    def axes(self) -> FloatArray:
+        """The two directions that span the plane of contact, and the axis, one a row, (3, 3).
+
+        Without roll the first is the part of the global y axis across the axis, or that of the
+        z axis where these are one; the second is the axis times it.
+        """
+        return plane_axes(self.axis, self.roll)
+
+    @cached_property
+    def coordinate(self) -> Coordinate:
+        """The first coordinate of the plane of contact."""
+        return Coordinate.of(self.node, "axis", _plain(self.axes[0]), self.other)
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """The coordinates that it acts along: two in the plane and, with friction, the axis."""
+        node, other = self.coordinate.node, self.coordinate.other
+        directions = self.axes if self.friction is not None else self.axes[:2]
+        return tuple(Coordinate(node, _plain(each), other) for each in directions)
+
+    def rows(self, basis: ModalBasis) -> FloatArray:
+        """Return the motion along each of its coordinates by the modes, (coordinates, N).
+
+        Raises
+        ------
+        InputError
+            If the basis knows no motion of a node, or none in the plane of contact.
+        """
+        rows = np.array([self._row(basis, each.direction) for each in self.coordinates])
+        if not rows[:2].any():
+            what = "no mode moves this node across the axis"
+            raise InputError(what, key="node", value=self.node)
+        return rows
+
+    def origin(self, basis: ModalBasis) -> FloatArray:
+        """Return where the node at rest stands, seen from the obstacle's centre, (2,), in m."""
+        if self.centre is not None:
+            return np.asarray(-self.axes[:2] @ np.array(self.centre))
+        if self.other is None:
+            return np.zeros(2)
+        if basis.model is None:
+            what = "must be told: this basis does not know where its nodes are"
+            raise InputError(what, key="centre", hint="the place of the other node from this one")
+        here, there = (basis.model.position(node) for node in (self.node, self.other))
+        apart = np.array(here) - np.array(there)
+        return np.asarray(self.axes[:2] @ apart)
+
+    @abstractmethod
+    def shape(self) -> _core.Shape:
+        """Return the obstacle as the core sees it."""
+
+    @abstractmethod
+    def outline(self) -> FloatArray:
+        """Return points of the obstacle that the node may reach, closed, (n, 2), in m."""
+
+    @abstractmethod
+    def distances(self, places: FloatArray) -> FloatArray:
+        """Return the distances of places in the plane of contact, (n, 2), in m."""
+
+    @abstractmethod
+    def normals(self, places: FloatArray) -> FloatArray:
+        """Return the directions in which the obstacle pushes at places, (n, 2)."""
+
+    def places(self, basis: ModalBasis, displacement: FloatArray) -> FloatArray:
+        """Return where modal displacements (n, N) put the node in the plane, (n, 2), in m."""
+        seen: FloatArray = self.origin(basis) + displacement @ self.rows(basis)[:2].T
+        return seen
+
+    def gap_at(self, basis: ModalBasis, displacement: FloatArray) -> float:
+        """Return the distance in m at a modal displacement, (N,)."""
+        return float(self.distances(self.places(basis, displacement[np.newaxis]))[0])
+
+    def sliding_speeds(
+        self, basis: ModalBasis, displacement: FloatArray, velocity: FloatArray
+    ) -> FloatArray:
+        """Return the speeds along the obstacle of modal motions (n, N) each, (n,), in m/s."""
+        a, b = self.normals(self.places(basis, displacement)).T
+        speeds = [self._row(basis, _plain(each)) @ velocity.T for each in self.axes]
+        sliding: FloatArray = np.hypot(a * speeds[1] - b * speeds[0], speeds[2])
+        return sliding
+
+    def stick_damping(self, basis: ModalBasis) -> float:
+        """Return the damping in N s/m of a contact that sticks: what is given, or critical damping.
+
+        That is of the tangential stiffness k on the mass that the modes have along the obstacle,
+        ``2 sqrt(m k)``, ``1/m`` the sum of the squared modal motions in the direction in which
+        that is largest.
+        """
+        if self.tangential_damping is not None:
+            return self.tangential_damping
+        mobility = float((self.rows(basis) ** 2).sum(axis=1).max())
+        return float(2.0 * np.sqrt((self.tangential_stiffness or 0.0) / mobility))
+
+    def core(self, basis: ModalBasis) -> _core.ShapedStop:
+        """Return the stop as the core sees it; see `rows` and `origin`."""
+        from bumpstop import _core
+
+        y, z = self.origin(basis).tolist()
+        friction = None
+        if self.friction is not None and self.tangential_stiffness is not None:
+            both, damping = Friction.of(self.friction), self.stick_damping(basis)
+            friction = (both.static, both.while_sliding, self.tangential_stiffness, damping)
+        rows = list(self.rows(basis))
+        return _core.ShapedStop(rows, (y, z), self.shape(), self.stiffness, self.damping, friction)
+
+    def _row(self, basis: ModalBasis, direction: Vector) -> FloatArray:
+        """Return the motion along a direction; zero where the basis tells none."""
+        row = np.zeros(len(basis.omega2))
+        for node, sign in ((self.node, 1.0), (self.other, -1.0)):
+            if node is None:
+                continue
+            known = _known_dofs(basis, node)
+            parts = zip(direction, TRANSLATIONS, strict=True)
+            along = _plain([part if dof in known else 0.0 for part, dof in parts])
+            moved = [
+                x * basis.row(node, dof) for x, dof in zip(along, TRANSLATIONS, strict=True) if x
+            ]
+            if np.any(np.sum(moved, axis=0)):
+                row += sign * direction_row(basis, node, along)
+        return row
+
+    def _check_friction(self) -> None:
+        given = {
+            "tangential_stiffness": self.tangential_stiffness,
+            "tangential_damping": self.tangential_damping,
+        }
+        if self.friction is None:
+            for key, value in given.items():
+                if value is not None:
+                    hint = "give the coefficient, friction = 0.2"
+                    raise InputError("belongs to friction", key=key, value=value, hint=hint)
+            return
+        object.__setattr__(self, "friction", Friction.of(self.friction))
+        if self.tangential_stiffness is None:
+            hint = "a contact that sticks is a spring; take about the contact stiffness"
+            raise InputError("friction needs it", key="tangential_stiffness", hint=hint)
+        for key, value in given.items():
+            if value is not None:
+                object.__setattr__(self, key, positive(key, value))
+
+
+def plane_axes(axis: Vector, roll: float = 0.0) -> FloatArray:
+    """Return the axes of the plane across an axis, and the axis, a unit vector each, (3, 3).
+
+    Examples
+    --------
+    >>> plane_axes((2.0, 0.0, 0.0)).round(12).tolist()
+    [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+    """
+    along = np.array(unit("axis", axis))
+    first = np.eye(3)[1 if abs(along[1]) < 1.0 - ACROSS else 2]
+    first = first - (first @ along) * along
+    first /= np.linalg.norm(first)
+    second = np.cross(along, first)
+    cos, sin = np.cos(roll), np.sin(roll)
+    return np.array([cos * first + sin * second, cos * second - sin * first, along])
+
+
+def _plain(direction: FloatArray | Sequence[float]) -> Vector:
+    """Return a direction whose components are exactly zero where they are rounding."""
+    x, y, z = (float(part) if abs(part) > ACROSS else 0.0 for part in direction)
+    return (x, y, z)
+
+
+def _known_dofs(basis: ModalBasis, node: str) -> tuple[str, ...]:
+    """Return the translations of a node that the basis tells.
+
+    Raises
+    ------
+    InputError
+        If it tells none.
+    """
+    known = []
+    for dof in TRANSLATIONS:
+        try:
+            basis.row(node, dof)
+        except InputError as error:
+            missing = error
+        else:
+            known.append(dof)
+    if not known:
+        raise missing
+    return tuple(known)
