@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from bumpstop.laws.circle_stop import CircleStop
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hertz_stop import HertzStop
+    from bumpstop.laws.plane_stop import PlaneStop
     from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
@@ -168,6 +169,7 @@ __all__ = [
     "Participation",
     "Periodicity",
     "Placed",
+    "PlaneStop",
     "PointMass",
     "PolarStop",
     "Polynomial",
@@ -303,6 +305,7 @@ _HOME = {
     "Periodicity": "post.poincare",
     "Placed": "modal.substructure.placed",
     "PointMass": "structure.mass",
+    "PlaneStop": "laws.plane_stop",
     "PolarStop": "laws.polar_stop",
     "Polynomial": "loads.time",
     "Problem": "problem",

@@ -173,7 +173,7 @@ def _motions(law: Law, carriers: list[MovingSupports], problem: Problem) -> Iter
         for each in getattr(law, "coordinates", ()):
             if abs(float(each.nodal_force(model) @ field)) > negligible:
                 what = f"cannot follow the supports that {load.name!r} moves"
-                hint = "stops around an axis do not; planes do"
+                hint = "stops around an axis do not, nor those that rub in two directions"
                 raise InputError(what, key=f"{law.table}.{law.name}", hint=hint)
         normal = float(law.coordinate.nodal_force(model) @ field)
         sliding = _sliding(law, problem)

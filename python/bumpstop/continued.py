@@ -86,10 +86,18 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
 
 def _refuse_memory(response: Response, law: Law, instant: float) -> None:
     """Raise where a law remembers what the state of the modes does not tell."""
-    from bumpstop.laws import CircleStop, HertzStop, PolarStop, RigidStop, SpringLaw, Stop
+    from bumpstop.laws import (
+        CircleStop,
+        HertzStop,
+        PlaneStop,
+        PolarStop,
+        RigidStop,
+        SpringLaw,
+        Stop,
+    )
 
     # By exact kind: what is made of these may remember more.
-    known = (CircleStop, HertzStop, PolarStop, RigidStop, SpringLaw, Stop)
+    known = (CircleStop, HertzStop, PlaneStop, PolarStop, RigidStop, SpringLaw, Stop)
     if type(law) not in known:
         what = "remembers more than the motion tells, and a new run would forget it"
         raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)

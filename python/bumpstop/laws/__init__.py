@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from bumpstop.laws.circle_stop import CircleStop
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hertz_stop import HertzStop
+    from bumpstop.laws.plane_stop import PlaneStop
     from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
     from bumpstop.laws.spring import SpringLaw
@@ -20,6 +21,7 @@ __all__ = [
     "CircleStop",
     "Friction",
     "HertzStop",
+    "PlaneStop",
     "PolarStop",
     "RigidStop",
     "SpringLaw",
@@ -31,6 +33,7 @@ _HOME = {
     "CircleStop": "circle_stop",
     "Friction": "friction",
     "HertzStop": "hertz_stop",
+    "PlaneStop": "plane_stop",
     "PolarStop": "polar_stop",
     "RigidStop": "rigid_stop",
     "SpringLaw": "spring",

@@ -9,7 +9,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, not_negative, one_of, positive
 from bumpstop.errors import InputError
-from bumpstop.laws.shaped_stop import ShapedStop
+from bumpstop.laws.around_axis import StopAroundAxis
 
 if TYPE_CHECKING:
     from bumpstop import _core
@@ -21,7 +21,7 @@ POINTS = 181
 
 
 @dataclass(frozen=True)
-class CircleStop(ShapedStop):
+class CircleStop(StopAroundAxis):
     """A round obstacle: a tube in its hole, a shaft in its ring, or one tube beside another.
 
     In the plane across the axis the node is at p, seen from the circle's centre. Inside a circle

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray, listed, pair
 from bumpstop.errors import InputError
-from bumpstop.laws.shaped_stop import ShapedStop
+from bumpstop.laws.around_axis import StopAroundAxis
 
 if TYPE_CHECKING:
     from bumpstop import _core
@@ -24,7 +24,7 @@ MOST = 65_535
 
 
 @dataclass(frozen=True)
-class PolarStop(ShapedStop):
+class PolarStop(StopAroundAxis):
     """An obstacle around the node whose profile r(angle) is a closed polygon.
 
     In the plane across the axis each side of the polygon belongs to the sector between the rays

@@ -1,4 +1,4 @@
-"""What stops on round and polygonal obstacles have: a plane of contact, and friction in it."""
+"""What stops on obstacles of a shape have: distance, normal and friction in two directions."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, finite, name, not_negative, positive, vector
+from bumpstop.arguments import FloatArray, Vector, name, not_negative, positive
 from bumpstop.errors import InputError
-from bumpstop.laws.coordinate import Coordinate, unit
+from bumpstop.laws.coordinate import Coordinate
 from bumpstop.laws.friction import Friction
 from bumpstop.projection import TRANSLATIONS, direction_row
 
@@ -20,15 +20,15 @@ if TYPE_CHECKING:
     from bumpstop import _core
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["ShapedStop", "plane_axes"]
+__all__ = ["ShapedStop"]
 
 ACROSS = 1e-9
-"""Components of an axis, relative to its length, along which no second axis is looked for."""
+"""Components of a direction, relative to its length, that are rounding."""
 
 
 @dataclass(frozen=True)
 class ShapedStop(ABC):
-    """A spring and damper behind an obstacle that lies around, or beside, an axis.
+    """A spring and damper behind an obstacle of a shape, which may rub in two directions.
 
     Each kind says in its own words what its obstacle is.
     """
@@ -43,10 +43,7 @@ class ShapedStop(ABC):
     name: str
     _: KW_ONLY
     node: str
-    axis: Vector
-    roll: float = 0.0
     other: str | None = None
-    centre: Vector | None = None
     stiffness: float
     damping: float = 0.0
     friction: float | Mapping[str, float] | Friction | None = None
@@ -55,23 +52,15 @@ class ShapedStop(ABC):
 
     def __post_init__(self) -> None:
         name("name", self.name)
-        object.__setattr__(self, "axis", unit("axis", self.axis))
-        object.__setattr__(self, "roll", finite("roll", self.roll))
-        if self.centre is not None:
-            object.__setattr__(self, "centre", vector("centre", self.centre))
         object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
         object.__setattr__(self, "damping", not_negative("damping", self.damping))
         assert self.coordinate  # checks the nodes
         self._check_friction()
 
     @cached_property
+    @abstractmethod
     def axes(self) -> FloatArray:
-        """The two directions that span the plane of contact, and the axis, one a row, (3, 3).
-
-        Without roll the first is the part of the global y axis across the axis, or that of the
-        z axis where these are one; the second is the axis times it.
-        """
-        return plane_axes(self.axis, self.roll)
+        """The two directions that span the plane of contact, and the one across it, (3, 3)."""
 
     @cached_property
     def coordinate(self) -> Coordinate:
@@ -99,26 +88,13 @@ class ShapedStop(ABC):
             raise InputError(what, key="node", value=self.node)
         return rows
 
+    @abstractmethod
     def origin(self, basis: ModalBasis) -> FloatArray:
-        """Return where the node at rest stands, seen from the obstacle's centre, (2,), in m."""
-        if self.centre is not None:
-            return np.asarray(-self.axes[:2] @ np.array(self.centre))
-        if self.other is None:
-            return np.zeros(2)
-        if basis.model is None:
-            what = "must be told: this basis does not know where its nodes are"
-            raise InputError(what, key="centre", hint="the place of the other node from this one")
-        here, there = (basis.model.position(node) for node in (self.node, self.other))
-        apart = np.array(here) - np.array(there)
-        return np.asarray(self.axes[:2] @ apart)
+        """Return where the node at rest stands, seen from the obstacle, (2,), in m."""
 
     @abstractmethod
     def shape(self) -> _core.Shape:
         """Return the obstacle as the core sees it."""
-
-    @abstractmethod
-    def outline(self) -> FloatArray:
-        """Return points of the obstacle that the node may reach, closed, (n, 2), in m."""
 
     @abstractmethod
     def distances(self, places: FloatArray) -> FloatArray:
@@ -204,23 +180,6 @@ class ShapedStop(ABC):
         for key, value in given.items():
             if value is not None:
                 object.__setattr__(self, key, positive(key, value))
-
-
-def plane_axes(axis: Vector, roll: float = 0.0) -> FloatArray:
-    """Return the axes of the plane across an axis, and the axis, a unit vector each, (3, 3).
-
-    Examples
-    --------
-    >>> plane_axes((2.0, 0.0, 0.0)).round(12).tolist()
-    [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
-    """
-    along = np.array(unit("axis", axis))
-    first = np.eye(3)[1 if abs(along[1]) < 1.0 - ACROSS else 2]
-    first = first - (first @ along) * along
-    first /= np.linalg.norm(first)
-    second = np.cross(along, first)
-    cos, sin = np.cos(roll), np.sin(roll)
-    return np.array([cos * first + sin * second, cos * second - sin * first, along])
 
 
 def _plain(direction: FloatArray | Sequence[float]) -> Vector:

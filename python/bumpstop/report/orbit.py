@@ -12,7 +12,7 @@ from bumpstop.report.scales import scale_for
 
 if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
-    from bumpstop.laws.shaped_stop import ShapedStop
+    from bumpstop.laws.around_axis import StopAroundAxis
     from bumpstop.response import Response
 
 __all__ = ["orbit"]
@@ -20,7 +20,7 @@ __all__ = ["orbit"]
 _NAMES = ("x", "y", "z")
 
 
-def orbit(response: Response, stop: ShapedStop) -> dict[str, Any]:
+def orbit(response: Response, stop: StopAroundAxis) -> dict[str, Any]:
     """Draw the path of a stop's node in the plane of its obstacle, and what it may reach.
 
     Where the node is is told from the obstacle's centre, along the two directions of the plane.

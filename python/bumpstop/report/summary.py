@@ -10,6 +10,7 @@ from bumpstop.laws import (
     CircleStop,
     Friction,
     HertzStop,
+    PlaneStop,
     PolarStop,
     RigidStop,
     SpringLaw,
@@ -283,13 +284,15 @@ def _law(law: Law) -> str:
 
 
 def _shaped(law: ShapedStop) -> str:
-    where = f"{_where(law.coordinate)} about {_vector(law.axis)}"
+    where = _where(law.coordinate)
     damping = f", {with_unit(law.damping, 'N s/m')}" if law.damping else ", no damping"
     size = ""
     if isinstance(law, CircleStop):
-        size = f", {law.side}, reached at {with_unit(law.reach, 'm')}"
+        size = f" about {_vector(law.axis)}, {law.side}, reached at {with_unit(law.reach, 'm')}"
     elif isinstance(law, PolarStop):
-        size = f" of {len(law.profile):,} sides"
+        size = f" about {_vector(law.axis)} of {len(law.profile):,} sides"
+    elif isinstance(law, PlaneStop):
+        size = f" that pushes along {_vector(law.normal)}, gap {with_unit(law.gap, 'm')}"
     force = f"{with_unit(law.stiffness, 'N/m')}{damping}{_friction(law)}"
     return f"{law.name}: a {law.obstacle} {where}{size}, {force}"
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bumpstop.laws.shaped_stop import ShapedStop
+from bumpstop.laws.around_axis import StopAroundAxis
 from bumpstop.report import figures, tables
 from bumpstop.report.orbit import orbit
 from bumpstop.report.published import published
@@ -99,7 +99,7 @@ class Variant:
             if getattr(law, "friction", None) is not None:
                 yield figures.friction_force(response, law.name, references)
             yield figures.gap(response, law.name, references)
-            if isinstance(law, ShapedStop):
+            if isinstance(law, StopAroundAxis):
                 yield orbit(response, law)
         for gauge in problem.gauges[:MOST_STOPS]:
             yield figures.gauge_strain(response, gauge.name, references)

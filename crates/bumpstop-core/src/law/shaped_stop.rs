@@ -10,11 +10,14 @@
 //! In its sector a polygon is a plane. Well within it no sector is looked for, since all of them meet
 //! at the origin.
 
+mod guards;
+
 use super::rubbing::{self, Rub};
 use super::{Affine, COORDINATES, Friction, Guard, Law, Local, LocalMotion, Piece, State};
 use crate::error::{Error, Result, check_finite};
 use crate::number::Number;
 use crate::obstacle::Shape;
+use guards::{NEARING, Watched};
 use std::borrow::Cow;
 
 /// A spring and damper behind an obstacle of any shape, with friction or without.
@@ -40,27 +43,8 @@ const CLOSED: u8 = 3;
 const STICK: u8 = 4;
 const SLIP: u8 = 5;
 
-/// Parts of a polygon's inner circle at which a sector is looked for, and no longer.
-const NEARING: f64 = 0.95;
-const LEAVING: f64 = 0.9;
-
 /// A sum below this part of the sizes of its terms counts as zero.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
-
-/// What a guard is made of.
-#[derive(Clone, Copy)]
-enum Watched {
-    /// The distance, times a sign.
-    Clearance(f64),
-    /// The normal force as a length, times a sign.
-    Push(f64),
-    /// What is left of the cone of friction, or is beyond it.
-    Margin,
-    /// The two rays of a polygon's sector.
-    Ray(usize),
-    /// A part of a polygon's inner circle, and a sign.
-    Within(f64, f64),
-}
 
 /// The structure at the obstacle.
 struct Touch<T> {
@@ -174,28 +158,6 @@ impl ShapedStop {
                 Some(rubbing::slip(friction, stretch, touch.along, push))
             }
             _ => None,
-        }
-    }
-
-    /// What the guards of a state are, those of a polygon's sector last.
-    fn watched(&self, state: State, index: usize) -> Watched {
-        let firm = if self.damping == 0.0 {
-            Watched::Clearance(-1.0)
-        } else {
-            Watched::Push(1.0)
-        };
-        let in_polygon = self.shape.polygon().is_some();
-        let own: &[Watched] = match state.number {
-            OPEN if in_polygon => &[Watched::Within(NEARING, 1.0)],
-            OPEN => &[Watched::Clearance(1.0)],
-            NEAR => &[Watched::Clearance(1.0), Watched::Within(LEAVING, -1.0)],
-            RELEASED => &[Watched::Clearance(-1.0), Watched::Push(-1.0)],
-            CLOSED => &[firm],
-            _ => &[firm, Watched::Margin],
-        };
-        match own.get(index) {
-            Some(watched) => *watched,
-            None => Watched::Ray(index - own.len()),
         }
     }
 
@@ -361,28 +323,12 @@ impl Law for ShapedStop {
     }
 
     fn guard_count(&self, state: State) -> usize {
-        let own = match state.number {
-            OPEN | CLOSED => 1,
-            _ => 2,
-        };
-        let rays = self.shape.polygon().is_some() && state.number != OPEN;
-        own + if rays { 2 } else { 0 }
+        self.watched_count(state)
     }
 
     fn guard(&self, state: State, index: usize) -> Guard {
-        let name = match (self.watched(state, index), state.number) {
-            (Watched::Clearance(_), OPEN | NEAR) => "closing",
-            (Watched::Clearance(_), _) => "opening",
-            (Watched::Push(_), RELEASED) => "hold",
-            (Watched::Push(_), _) => "release",
-            (Watched::Margin, STICK) => "slip",
-            (Watched::Margin, _) => "stick",
-            (Watched::Within(..), OPEN) => "near",
-            (Watched::Within(..), _) => "away",
-            (Watched::Ray(_), _) => "corner",
-        };
         Guard {
-            name,
+            name: self.watched(state, index).name(state),
             function: Affine::ZERO,
         }
     }
@@ -410,30 +356,12 @@ impl Law for ShapedStop {
         velocity: &Local<T>,
         memory: &[T; 2],
     ) -> T {
-        match (
+        self.value_of(
             self.watched(state, index),
-            self.shape.polygon(),
-            &self.friction,
-        ) {
-            (Watched::Clearance(sign), ..) => T::of(sign) * self.clearance(state, position),
-            (Watched::Push(sign), ..) => {
-                let touch = self.touch(state, position, velocity);
-                T::of(sign / self.stiffness) * self.push(&touch)
-            }
-            (Watched::Margin, _, Some(friction)) => {
-                let touch = self.touch(state, position, velocity);
-                let push = self.push(&touch);
-                rubbing::margin(friction, state.number == STICK, *memory, touch.along, push)
-            }
-            (Watched::Ray(which), Some(polygon), _) => {
-                polygon.rays(usize::from(state.part), self.place(position))[which]
-            }
-            (Watched::Within(part, sign), Some(polygon), _) => {
-                T::of(sign) * polygon.within(part, self.place(position))
-            }
-            // Nothing else is watched: a stop that does not rub has no margin, a circle no rays.
-            _ => T::of(1.0),
-        }
+            state,
+            [position, velocity],
+            memory,
+        )
     }
 
     fn next_state(

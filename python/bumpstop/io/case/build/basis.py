@@ -98,7 +98,7 @@ def _stop_places(stop: StopTable) -> list[Place]:
     nodes = [node for node in (stop.node, *(stop.nodes or ()), stop.other) if node is not None]
     directions = [] if stop.normal is None else [stop.normal]
     if stop.axis is not None:
-        from bumpstop.laws.shaped_stop import plane_axes
+        from bumpstop.laws.around_axis import plane_axes
 
         first, second, _ = plane_axes(stop.axis, stop.roll or 0.0).tolist()
         directions = [tuple(first), tuple(second)]

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.laws import LawTable, SpringLawTable
     from bumpstop.io.case.tables.motion import MotionTable
     from bumpstop.io.case.tables.stops import StopTable
-    from bumpstop.laws import HertzStop, RigidStop, SpringLaw, ZenerDamper
+    from bumpstop.laws import SpringLaw, ZenerDamper
     from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Law
 
@@ -66,7 +66,7 @@ def _stops(name: str, table: StopTable, folder: Path) -> Iterator[Law]:
             yield _stop(own, each, folder)
 
 
-def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop | HertzStop:
+def _stop(name: str, table: StopTable, folder: Path) -> Law:
     from bumpstop.errors import InputError
     from bumpstop.io.case.fields.laws import contact_stiffness
 
@@ -88,6 +88,10 @@ def _stop(name: str, table: StopTable, folder: Path) -> Stop | RigidStop | Hertz
     if "resolution" in given:
         what, value = "belongs to rigid stops", given["resolution"]
         raise InputError(what, key="resolution", value=value, hint="leave it out")
+    if given.get("sliding") == "plane":
+        from bumpstop.io.case.build.shapes import plane_stop
+
+        return plane_stop(name, given)
     power = any(key in given for key in POWER)
     exponent = given.get("exponent", 1.5 if power else 1.0)
     given["stiffness"] = contact_stiffness(table.stiffness, exponent)

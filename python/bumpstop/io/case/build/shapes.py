@@ -9,9 +9,9 @@ from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.stops import StopTable
-    from bumpstop.laws import CircleStop, PolarStop
+    from bumpstop.laws import CircleStop, PlaneStop, PolarStop
 
-__all__ = ["AROUND", "faces", "shaped_stop"]
+__all__ = ["AROUND", "faces", "plane_stop", "shaped_stop"]
 
 AROUND = ("circle", "polar")
 """Obstacles about an axis."""
@@ -29,6 +29,8 @@ _OF_PLANES = (
     "sliding",
 )
 """What planes alone have."""
+_OF_SIMPLE_PLANES = ("terms", "exponent", "hunt_crossley", "motion", "frame")
+"""What planes that rub in two directions do not have."""
 _OF_CIRCLES = ("radius", "body_radius", "side")
 
 
@@ -101,6 +103,25 @@ def shaped_stop(name: str, given: dict[str, Any]) -> CircleStop | PolarStop:
     from bumpstop.laws import CircleStop
 
     return CircleStop(name, **given)
+
+
+def plane_stop(name: str, given: dict[str, Any]) -> PlaneStop:
+    """Return the stop on a plane, rubbing in two directions, that a table's keys describe.
+
+    Raises
+    ------
+    InputError
+        If one of them is of no use to it.
+    """
+    from bumpstop.laws import PlaneStop
+
+    del given["sliding"], given["obstacle"]
+    for key in _OF_SIMPLE_PLANES:
+        if key in given:
+            what = "is of no use to a stop that rubs in two directions"
+            raise InputError(what, key=key, value=given[key])
+    given["stiffness"] = float(given["stiffness"])
+    return PlaneStop(name, **given)
 
 
 def _polar(name: str, gap: float, given: dict[str, Any]) -> PolarStop:

@@ -72,7 +72,10 @@ def _read_friction(value: object) -> float | dict[str, float]:
     return friction
 
 
-def _read_sliding(value: object) -> tuple[float, ...] | dict[Dof, float]:
+def _read_sliding(value: object) -> str | tuple[float, ...] | dict[Dof, float]:
+    if isinstance(value, str):
+        choice("plane").read(value)
+        return value
     if isinstance(value, list):
         return tuple(read_list(value, _read_component, "numbers", 3))
     if not isinstance(value, dict):
@@ -143,10 +146,16 @@ _FRICTION = {
 ContactStiffness = Annotated[float, Plain(_read_contact_stiffness, _STIFFNESS)]
 FrictionCoefficients = Annotated[float | dict[str, float], Plain(_read_friction, _FRICTION)]
 Sliding = Annotated[
-    tuple[float, float, float] | dict[Dof, float],
+    str | tuple[float, float, float] | dict[Dof, float],
     Plain(
         _read_sliding,
-        {"anyOf": [_DIRECTION, {"type": "object", "additionalProperties": _WEIGHTS}]},
+        {
+            "anyOf": [
+                {"const": "plane"},
+                _DIRECTION,
+                {"type": "object", "additionalProperties": _WEIGHTS},
+            ]
+        },
     ),
 ]
 Slopes = Annotated[list[float], Plain(_read_slopes, _LIST)]

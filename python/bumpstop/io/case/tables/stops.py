@@ -138,7 +138,8 @@ class StopTable(Table):
     sliding: Sliding | None = Field(
         default=None,
         description="Direction along the obstacle in which it rubs, or weights of dofs as in "
-        "terms; not needed where the node moves in one direction only along the obstacle",
+        "terms; not needed where the node moves in one direction only along the obstacle; or "
+        '"plane": it rubs in every direction along a plane',
     )
     tangential_stiffness: Stiffness | None = Field(
         default=None, description="Stiffness of a contact that sticks, in N/m; friction needs it"
