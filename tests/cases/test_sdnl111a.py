@@ -1,6 +1,7 @@
 """The case SDNL111A against waves in bars, and against a matrix exponential."""
 
 import runpy
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -71,6 +72,28 @@ def test_contact_and_flight_by_matrix_exponentials(response: bs.Response) -> Non
         force = response.sample("stop_force", "faces", times=[time])
         assert distance == pytest.approx([row @ state[:size]], abs=1e-14)
         assert force == pytest.approx([max(0.0, push @ state) * (time < gone)], abs=1e-5)
+
+
+def test_faces_that_are_round_as_in_the_third_run(case: bs.Case, response: bs.Response) -> None:
+    """Circles of 5 um about each node, 10 um apart: along one line they are planes."""
+    round_faces = bs.CircleStop(
+        "faces",
+        node="A",
+        other="C",
+        axis=(0, 1, 0),
+        centre=(-1e-5, 0.0, 0.0),
+        radius=5e-6,
+        body_radius=5e-6,
+        side="outside",
+        stiffness=5e9,
+        damping=2e4,
+    )
+    problem = replace(case.problems["exact"], laws=[round_faces])
+    found = bs.simulate(problem, rtol=1e-11)
+    assert found.method == "dop853"
+    times = np.linspace(0.0, 1e-3, 41)
+    paths = [each.sample("displacement", "A", "dx", times=times) for each in (response, found)]
+    np.testing.assert_allclose(paths[1], paths[0], rtol=0, atol=1e-9 * 2e-4)
 
 
 def _modes() -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -273,6 +273,24 @@ rtol = 1e-12
     assert impacts["peak_force"] == pytest.approx([0.3 * math.sqrt(1e5)], rel=1e-8)
 
 
+@pytest.mark.parametrize("angle", [0.0, 0.7, 2.2])
+def test_a_tube_lies_on_the_floor_of_its_hole(angle: float) -> None:
+    """It rests where the weight has pressed it in, and stays there when the run begins."""
+    weight = (0.0, 12.0 * math.cos(angle), 12.0 * math.sin(angle))
+    law = FRICTION.stop(centre=(0.0, 2e-4, -1e-4))
+    load = bs.NodalForce("weight", node="P", force=weight)
+    basis = free_mass()
+    start = bs.StaticState(loads=[load], laws=[law])
+    place = start.modal_state(basis)[0]
+    reach = 1e-3 + 12.0 / FRICTION.stiffness
+    expected = [0.0, 2e-4 + reach * math.cos(angle), -1e-4 + reach * math.sin(angle)]
+    assert place.tolist() == pytest.approx(expected, abs=1e-12)
+    problem = bs.Problem(basis, laws=[law], loads=[load], initial=start, duration=0.01)
+    found = bs.simulate(problem)
+    assert found.history.motion(np.array([0.01]), 0)[0] == pytest.approx(expected, abs=1e-12)
+    assert found.sample("stop_force", "hole", times=[0.01]) == pytest.approx([12.0], rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("wrong", "key"),
     [

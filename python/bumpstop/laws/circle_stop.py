@@ -138,6 +138,11 @@ class CircleStop(StopAroundAxis):
         apart = self.reach - np.hypot(*places.T)
         return np.asarray(apart if self.side == "inside" else -apart)
 
+    def bend(self, place: FloatArray) -> float:
+        """Return how the normal turns per m that a place (2,) moves along the circle."""
+        sign = 1.0 if self.side == "outside" else -1.0
+        return sign / max(float(np.hypot(*place)), np.finfo(float).tiny)
+
     def normals(self, places: FloatArray) -> FloatArray:
         """Return the directions in which the obstacle pushes at places, (n, 2)."""
         length = np.maximum(np.hypot(*places.T), np.finfo(float).tiny)[:, np.newaxis]

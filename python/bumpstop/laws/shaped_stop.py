@@ -104,6 +104,20 @@ class ShapedStop(ABC):
     def normals(self, places: FloatArray) -> FloatArray:
         """Return the directions in which the obstacle pushes at places, (n, 2)."""
 
+    def bend(self, place: FloatArray) -> float:  # noqa: ARG002  # circles ask it
+        """Return how the normal turns per m that a place (2,) moves along the obstacle."""
+        return 0.0
+
+    def static_push(self, place: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the force at rest in N at a place in the plane, (2,), and its slope, (2, 2)."""
+        normal = self.normals(place[np.newaxis])[0]
+        depth = max(0.0, -float(self.distances(place[np.newaxis])[0]))
+        if depth == 0.0:
+            return np.zeros(2), np.zeros((2, 2))
+        along = np.outer(normal, normal)
+        turning = depth * self.bend(place) * (np.eye(2) - along)
+        return self.stiffness * depth * normal, self.stiffness * (turning - along)
+
     def places(self, basis: ModalBasis, displacement: FloatArray) -> FloatArray:
         """Return where modal displacements (n, N) put the node in the plane, (n, 2), in m."""
         seen: FloatArray = self.origin(basis) + displacement @ self.rows(basis)[:2].T

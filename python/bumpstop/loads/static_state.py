@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -39,6 +39,28 @@ class _StaticLaw(Protocol):
 
     def static_force(self, place: float) -> tuple[float, float]:
         """Return the force at rest along its coordinate, and how it changes with that."""
+
+
+@runtime_checkable
+class _StaticShape(Protocol):
+    """A law with a force at rest in a plane."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+
+    @property
+    def stiffness(self) -> float:
+        """Its stiffness in N/m."""
+
+    def rows(self, basis: ModalBasis) -> FloatArray:
+        """Return its coordinates per unit of each modal displacement, those of the plane first."""
+
+    def origin(self, basis: ModalBasis) -> FloatArray:
+        """Return where the structure at rest stands in the plane, (2,)."""
+
+    def static_push(self, place: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the force at rest in the plane, (2,), and how it changes there, (2, 2)."""
 
 
 @runtime_checkable
@@ -91,7 +113,7 @@ class StaticState:
     def __post_init__(self) -> None:
         object.__setattr__(self, "loads", all_of("loads", _Load, self.loads))
         for law in self.laws:
-            if not isinstance(law, _StaticLaw):
+            if not isinstance(law, _StaticLaw | _StaticShape):
                 what = "has no force at rest that could be balanced"
                 value = getattr(law, "name", law)
                 hint = "plain stops and springs have"
@@ -112,8 +134,8 @@ class StaticState:
         InputError
             If nothing holds the structure, or it has no equilibrium that it would stay in.
         """
-        laws = [law for law in self.laws if isinstance(law, _StaticLaw)]
-        balance = _Balance(basis, self._force(basis), laws)
+        holds = [_held(basis, law) for law in self.laws]
+        balance = _Balance(basis, self._force(basis), holds)
         return balance.found(), np.zeros(len(basis.omega2))
 
     def remarks(self, _: ModalBasis) -> tuple[str, ...]:
@@ -132,15 +154,43 @@ class StaticState:
         return total
 
 
+class _Held(NamedTuple):
+    """What a law does at rest."""
+
+    rows: FloatArray
+    """Motion along each of its coordinates by the modes, (coordinates, N)."""
+    push: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+    """From the coordinates to the forces along them, and how these change, (n,) and (n, n)."""
+    stiffness: float
+    """The largest that it can have on a mode."""
+
+
+def _held(basis: ModalBasis, law: object) -> _Held:
+    """Return what a law does at rest on a basis."""
+    if isinstance(law, _StaticLaw):
+        told = law.static_force
+        rows = law.row(basis)[np.newaxis]
+        far = max(abs(told(x)[1]) for x in (-1e9, 1e9))
+
+        def along(place: FloatArray) -> tuple[FloatArray, FloatArray]:
+            push, change = told(float(place[0]))
+            return np.array([push]), np.array([[change]])
+
+        return _Held(rows, along, far * float((rows**2).max(initial=0.0)))
+    assert isinstance(law, _StaticShape)  # checked when it was made
+    shape, rows, origin = law, law.rows(basis)[:2], law.origin(basis)
+    stiffest = shape.stiffness * float((rows**2).max(initial=0.0))
+    return _Held(rows, lambda place: shape.static_push(origin + place), stiffest)
+
+
 class _Balance:
     """The search for an equilibrium."""
 
-    def __init__(self, basis: ModalBasis, force: FloatArray, laws: Sequence[_StaticLaw]) -> None:
+    def __init__(self, basis: ModalBasis, force: FloatArray, laws: Sequence[_Held]) -> None:
         self._stiffness = np.diag(basis.omega2)
         if basis.circulatory is not None:
             self._stiffness = self._stiffness + basis.circulatory
         self._force, self._laws = force, laws
-        self._rows = np.array([law.row(basis) for law in laws]).reshape(len(laws), len(force))
 
     def found(self) -> FloatArray:
         """Return the displacement (N,) at which all forces are in balance.
@@ -170,11 +220,11 @@ class _Balance:
         elastic = self._stiffness @ place
         left, scale = self._force - elastic, np.abs(self._force).max() + np.abs(elastic).max()
         slope = -self._stiffness
-        for law, row in zip(self._laws, self._rows, strict=True):
-            push, change = law.static_force(float(row @ place))
-            left = left + push * row
-            scale += abs(push) * np.abs(row).max()
-            slope = slope + change * np.outer(row, row)
+        for rows, push_at, _ in self._laws:
+            push, change = push_at(rows @ place)
+            left = left + push @ rows
+            scale += np.abs(push).max() * np.abs(rows).max()
+            slope = slope + rows.T @ change @ rows
         return left, float(scale) or 1.0, slope
 
     def _step(self, left: FloatArray, slope: FloatArray) -> FloatArray:
@@ -187,10 +237,7 @@ class _Balance:
 
     def _stiffest(self) -> float:
         """Return the largest stiffness that a law can have on a mode."""
-        far = [max(abs(law.static_force(x)[1]) for x in (-1e9, 1e9)) for law in self._laws]
-        weights: list[float] = (self._rows**2).max(axis=1, initial=0.0).tolist()
-        products = [k * w for k, w in zip(far, weights, strict=True)]
-        return float(max(products, default=0.0)) or 1.0
+        return max((law.stiffness for law in self._laws), default=0.0) or 1.0
 
     def _reach(self, place: FloatArray) -> float:
         """Return the size of motions that lead somewhere."""
