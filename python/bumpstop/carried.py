@@ -170,11 +170,13 @@ def _motions(law: Law, carriers: list[MovingSupports], problem: Problem) -> Iter
             continue
         field = load.field(model)
         negligible = _NOTHING * float(np.abs(field).max())
-        for each in getattr(law, "coordinates", ()):
-            if abs(float(each.nodal_force(model) @ field)) > negligible:
-                what = f"cannot follow the supports that {load.name!r} moves"
-                hint = "stops around an axis do not, nor those that rub in two directions"
-                raise InputError(what, key=f"{law.table}.{law.name}", hint=hint)
+        several = getattr(law, "coordinates", ())
+        if any(abs(float(each.nodal_force(model) @ field)) > negligible for each in several):
+            what = f"cannot follow the supports that {load.name!r} moves"
+            hint = "stops around an axis do not, nor those that rub in two directions"
+            raise InputError(what, key=f"{law.table}.{law.name}", hint=hint)
+        if several:
+            continue
         normal = float(law.coordinate.nodal_force(model) @ field)
         sliding = _sliding(law, problem)
         along = 0.0 if sliding is None else float(sliding @ field)

@@ -130,10 +130,14 @@ class ShapedStop(ABC):
     def sliding_speeds(
         self, basis: ModalBasis, displacement: FloatArray, velocity: FloatArray
     ) -> FloatArray:
-        """Return the speeds along the obstacle of modal motions (n, N) each, (n,), in m/s."""
-        a, b = self.normals(self.places(basis, displacement)).T
-        speeds = [self._row(basis, _plain(each)) @ velocity.T for each in self.axes]
-        sliding: FloatArray = np.hypot(a * speeds[1] - b * speeds[0], speeds[2])
+        """Return the speeds along the obstacle, (n,), in m/s.
+
+        From displacements and velocities of the node along the global axes, (n, 3), seen from the
+        obstacle.
+        """
+        a, b = self.normals(self.origin(basis) + displacement @ self.axes[:2].T).T
+        first, second, across = self.axes @ velocity.T
+        sliding: FloatArray = np.hypot(a * second - b * first, across)
         return sliding
 
     def stick_damping(self, basis: ModalBasis) -> float:
