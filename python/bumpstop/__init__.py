@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from bumpstop.modal.certificate import SturmCount
     from bumpstop.modal.damping import RayleighDamping, StructuralDamping
     from bumpstop.modal.frequency_response import FrequencyResponse
+    from bumpstop.modal.full import FullModel
     from bumpstop.modal.masses import Participation, generalised_mass, participation
     from bumpstop.modal.oscillation import ComplexModes, complex_modes
     from bumpstop.modal.rotor import Campbell, campbell
@@ -142,6 +143,7 @@ __all__ = [
     "FlatScar",
     "FrequencyResponse",
     "Friction",
+    "FullModel",
     "Gauge",
     "GeneralSection",
     "Gravity",
@@ -276,6 +278,7 @@ _HOME = {
     "Expression": "loads.expression",
     "FlatScar": "post.scars",
     "FrequencyResponse": "modal.frequency_response",
+    "FullModel": "modal.full",
     "Friction": "laws.friction",
     "Gauge": "structure.gauge",
     "GeneralSection": "structure.sections.general",

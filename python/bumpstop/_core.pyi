@@ -256,6 +256,36 @@ class History:
         ``energy_absorbed``, ``energy_returned``.
         """
 
+class FullProblem:
+    """A structure of N dofs, with laws that see the kept ones of them, (K,)."""
+
+    def __init__(
+        self,
+        matrices: Sequence[Columns],
+        forcing: Forcing,
+        start: Array,
+        kept: NDArray[np.intp],
+        laws: Sequence[Law],
+        obstacles: Forcing,
+        duration: float,
+    ) -> None:
+        """Take mass, damping and stiffness, loads on all dofs and the start, (2, N).
+
+        The rows of the laws are over the kept dofs, and so is ``obstacles``, which has no forces
+        but the motions of obstacles.
+        """
+    def stability_limit(self, method: str, parameters: Mapping[str, float]) -> float:
+        """Largest stable step in s, with every stop closed; it may be inf."""
+    def simulate(
+        self,
+        method: str,
+        dt: float,
+        beyond_stability_limit: bool,
+        parameters: Mapping[str, float],
+        progress: Callable[[float], None] | None,
+    ) -> History:
+        """Integrate; releases the GIL. The history has the motion of the kept dofs."""
+
 def simulate(
     system: System,
     laws: Sequence[Law],

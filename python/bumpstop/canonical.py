@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
 
-__all__ = ["CanonicalForm", "canonical_form", "velocity_matrix"]
+__all__ = ["CanonicalForm", "canonical_form", "forcing", "obstacle_motions", "velocity_matrix"]
 
 
 class CanonicalForm(NamedTuple):
@@ -58,15 +58,20 @@ def canonical_form(problem: Problem) -> CanonicalForm:
         if check is not None:
             check(basis, displacement)
     system = _core.System(basis.omega2, *_velocity_terms(basis), basis.circulatory)
-    forcing = _forcing(problem)
+    loads = obstacle_motions(problem, forcing(problem))
+    return CanonicalForm(system, laws, loads, displacement, velocity)
+
+
+def obstacle_motions(problem: Problem, loads: _core.Forcing) -> _core.Forcing:
+    """Return loads with the motions of obstacles beside them."""
     # Few obstacles move: what follows them is imported where one does.
     moved = [
         (law, (*getattr(stop, "functions", ()), *carried))
         for law, (stop, carried) in enumerate(zip(problem.laws, _carried(problem), strict=True))
     ]
     if any(functions for _, functions in moved):
-        forcing = _with_motions(forcing, moved, problem.duration)
-    return CanonicalForm(system, laws, forcing, displacement, velocity)
+        return _with_motions(loads, moved, problem.duration)
+    return loads
 
 
 def _carried(problem: Problem) -> Sequence[Sequence[TimeFunction]]:
@@ -78,8 +83,8 @@ def _carried(problem: Problem) -> Sequence[Sequence[TimeFunction]]:
     return carried_obstacles(problem)
 
 
-def _forcing(problem: Problem) -> _core.Forcing:
-    """Return the modal forces of all loads."""
+def forcing(problem: Problem) -> _core.Forcing:
+    """Return the modal forces of all loads, without motions of obstacles."""
     constant = np.zeros(len(problem.basis.omega2))
     changing = []
     for load in problem.loads:
@@ -112,7 +117,7 @@ def _forcing(problem: Problem) -> _core.Forcing:
 
 
 def _with_motions(
-    forcing: _core.Forcing, moved: Sequence[tuple[int, Sequence[TimeFunction]]], duration: float
+    loads: _core.Forcing, moved: Sequence[tuple[int, Sequence[TimeFunction]]], duration: float
 ) -> _core.Forcing:
     """Return loads with the motions of obstacles, by the numbers of their laws."""
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable, resolved
@@ -131,7 +136,7 @@ def _with_motions(
                 times, values = np.asarray(function.times), np.asarray(function.values)
                 # One that says nothing covers the run: its ends are no jumps.
                 tables.append((law, times, values, function.beyond != "zero"))
-    return forcing.with_motions(polynomials, harmonics, tables)
+    return loads.with_motions(polynomials, harmonics, tables)
 
 
 def velocity_matrix(basis: ModalBasis) -> FloatArray:

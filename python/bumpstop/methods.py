@@ -12,6 +12,7 @@ from bumpstop.problem import Law, Problem
 __all__ = [
     "ADAPTIVE_METHODS",
     "FIXED_STEP_METHODS",
+    "FULL_METHODS",
     "METHODS",
     "ONE_STEP_METHODS",
     "OPTIONS",
@@ -57,12 +58,15 @@ OPTIONS: dict[str, tuple[str, ...]] = {
 """What each method can be told; ``"auto"`` has no use for it where it takes the exact one."""
 RTOL = 1e-8
 """Relative tolerance of the adaptive methods where none is given."""
+FULL_METHODS = ("newmark", "hht", "generalized_alpha", "central_difference")
+"""Methods that take a full model, which is not reduced to modes."""
 MODE_BY_MODE = (*EXPLICIT_METHODS, "devogelaere", "exponential")
 """Methods that carry each mode by itself."""
 
 
 def check_method(method: str, problem: Problem) -> None:
     """Raise where a method does not take what the problem is made of."""
+    _refuse_full_model(method, problem)
     _refuse_coupled_modes(method, problem)
     _refuse_rigid_stops(method, problem)
     _refuse_smooth_laws(method, problem)
@@ -106,6 +110,17 @@ def smoothness(law: Law) -> str:
 def usable_options(method: str, options: Mapping[str, object]) -> dict[str, Any]:
     """Return those options, among many, that a method takes."""
     return {key: value for key, value in options.items() if key in OPTIONS[method]}
+
+
+def _refuse_full_model(method: str, problem: Problem) -> None:
+    """Raise for a method that goes by modes where there are none."""
+    if problem.basis.unreduced and method not in FULL_METHODS:
+        raise InputError(
+            "does not take a full model",
+            key="method",
+            value=method,
+            hint=f"{', '.join(FULL_METHODS)} do; the others need a modal basis",
+        )
 
 
 def _refuse_coupled_modes(method: str, problem: Problem) -> None:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from bumpstop._core import History
     from bumpstop.post.impacts import Table
     from bumpstop.problem import Problem
+    from bumpstop.structure.sparse import IndexArray
 
 __all__ = ["Response"]
 
@@ -51,6 +52,8 @@ class Response:
         Why this method was taken.
     options
         Options of the method: its step ``dt`` in s, where it has one.
+    kept
+        The coordinates of a full model whose motion was kept; all where None.
     """
 
     problem: Problem
@@ -59,6 +62,7 @@ class Response:
     times: FloatArray
     method_reason: str
     options: Mapping[str, float]
+    kept: IndexArray | None = None
 
     def __post_init__(self) -> None:
         times = _checked_times(self.times, self.problem.duration)
@@ -223,6 +227,9 @@ class Response:
             law = self.law_index(str(target[0]))
             distance, _, force = self.history.law_motion(law, self._instants(times))
             return force if quantity == "stop_force" else distance
+        if self.kept is not None:
+            hint = "a smaller model or larger steps leave room for all"
+            raise InputError("are not kept for each dof", key="quantity", value=quantity, hint=hint)
         motion = self.motion(MOTIONS.index(quantity.removeprefix("modal_")), times)
         amplitudes = self.problem.basis.amplitudes(motion)
         return amplitudes[:, self._mode_index(target[0])] if target else amplitudes
@@ -494,7 +501,12 @@ class Response:
         return forces[:, 1].copy()
 
     def _along(self, row: FloatArray, derivative: int, times: ArrayLike | None) -> FloatArray:
-        """Return a row (N,) times the modal motion."""
+        """Return the motion (time,) of what a row of the basis (N,) stands for."""
+        if self.kept is not None:
+            if np.count_nonzero(row) != np.count_nonzero(row[self.kept]):
+                what = "was not kept: there are more dofs and steps than memory has room for"
+                raise InputError(what, key="target", hint="name the place among the outputs")
+            row = row[self.kept]
         if MOTIONS[derivative] == "acceleration":
             # From the equations of motion, which have the laws' forces to the last digit.
             return along(row, self.motion(derivative, times))

@@ -37,6 +37,8 @@ CUBIC = 4
 """Coefficients in time of each number of a classical scheme's step."""
 WORKS = 4
 """Numbers of a step beside those of the modes and of each law."""
+FULL_WORKS = 2 * WORKS
+"""The same for a full model, whose energies are kept too."""
 FINEST_RTOL = 1e-14
 """The finest relative tolerance: rounding rules below it."""
 MOST_ENERGY = 1e200
@@ -150,9 +152,14 @@ def simulate(
     tolerances = _checked_tolerances(chosen, rtol, atol)
     for line in problem.warnings:
         warnings.warn(line, ModellingWarning, stacklevel=2)
-    model = _model(chosen, problem)
     stepping = Stepping(chosen, parameters, beyond_stability_limit)
-    step = _checked_step(stepping, dt, problem.duration, model)
+    if problem.basis.unreduced:
+        return _run_full(problem, stepping, dt, reason, progress)
+    model = _model(chosen, problem)
+    step = None
+    if chosen in FIXED_STEP_METHODS:
+        limit = _core.stability_limit(model.system, model.laws, chosen, parameters)
+        step = _checked_step(stepping, dt, problem.duration, limit, _most_steps(chosen, model))
     try:
         history = _core.simulate(
             model.system,
@@ -192,6 +199,8 @@ def _choose(method: str, problem: Problem) -> tuple[str, str]:
     """Return the method to take, and why."""
     if method != "auto":
         return method, "asked for"
+    if problem.basis.unreduced:
+        return "newmark", "a full model is stepped through time"
     for law in problem.laws:
         reason = smoothness(law)
         if reason:
@@ -225,13 +234,45 @@ def _model(method: str, problem: Problem) -> CanonicalForm:
     return model
 
 
+def _run_full(
+    problem: Problem,
+    stepping: Stepping,
+    dt: float | None,
+    reason: str,
+    progress: Callable[[float], None] | None,
+) -> Response:
+    """Step through time on the dofs of a structure."""
+    from bumpstop.full import full_problem, kept_dofs
+
+    method, parameters, beyond = stepping
+    steps = problem.duration / positive("dt", dt) if dt is not None else 1.0
+    kept = kept_dofs(problem, steps)
+    try:
+        model = full_problem(problem, kept)
+        limit = model.stability_limit(method, parameters)
+    except _core.CoreError as error:
+        raise InputError(str(error), key="problem") from error
+    most = LARGEST_RECORD // (8 * CUBIC * (2 * len(kept) + FULL_WORKS + len(problem.laws)))
+    step = _checked_step(stepping, dt, problem.duration, limit, most)
+    try:
+        history = model.simulate(method, step, beyond, parameters, progress)
+    except _core.CoreError as error:
+        raise ComputationError(f"the {method} method could not finish: {error}") from error
+    whole = len(kept) == len(problem.basis.omega2)
+    return Response(
+        problem,
+        history,
+        times=problem.times,
+        method_reason=reason,
+        options={"dt": step, **parameters},
+        kept=None if whole else kept,
+    )
+
+
 def _checked_step(
-    stepping: Stepping, dt: float | None, duration: float, model: CanonicalForm
-) -> float | None:
+    stepping: Stepping, dt: float | None, duration: float, limit: float, most: int
+) -> float:
     method = stepping.method
-    if method not in FIXED_STEP_METHODS:
-        return None
-    limit = _core.stability_limit(model.system, model.laws, method, stepping.parameters)
     if dt is None:
         hint = f"stable up to {limit:.4g} s" if limit < math.inf else "every step is stable"
         raise InputError(f"the {method} method needs a step in s", key="dt", hint=hint)
@@ -239,7 +280,6 @@ def _checked_step(
     if step > duration:
         hint = f"the duration is {duration:g} s"
         raise InputError("must not exceed the duration", key="dt", value=dt, hint=hint)
-    most = _most_steps(method, model)
     if duration / step > most:
         what = f"makes {duration / step:.2g} steps, more than the {most:.2g} that memory holds"
         hint = f"take at least {duration / most:.3g} s"

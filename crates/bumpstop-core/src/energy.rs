@@ -56,6 +56,56 @@ impl Ledger {
     }
 }
 
+/// Times what was there and was given, beyond which an energy that comes from nowhere tells that a
+/// run has gone wrong. Steps that are merely coarse stay far below it, and one that is unstable
+/// passes it soon.
+pub(crate) const BLOWN_UP: f64 = 100.0;
+
+/// Tells from the ledger when a run blows up.
+#[derive(Debug)]
+pub(crate) struct Growth {
+    balance: f64,
+    start: f64,
+    given: f64,
+}
+
+impl Growth {
+    /// From the ledger at t = 0.
+    pub(crate) fn new(ledger: &Ledger) -> Self {
+        Self {
+            balance: ledger.balance(),
+            start: ledger.scale(),
+            given: 0.0,
+        }
+    }
+
+    /// Looks at a later ledger; gives the energy that came from nowhere, over what was there and
+    /// was given, where that is too much.
+    pub(crate) fn sees(&mut self, ledger: &Ledger) -> Option<f64> {
+        let given = [
+            ledger.load_work,
+            ledger.circulatory_work,
+            ledger.obstacle_work,
+        ];
+        let given: f64 = given.iter().map(|work| work.abs()).sum();
+        self.given = self.given.max(given);
+        let excess = ledger.balance() - self.balance;
+        let ratio = excess / (self.start + self.given);
+        (ratio > BLOWN_UP).then_some(ratio)
+    }
+}
+
+/// The mode that has the most energy, if that is a number.
+pub(crate) fn largest_share(omega2: &[f64], displacement: &[f64], velocity: &[f64]) -> usize {
+    let motion = displacement.iter().zip(velocity);
+    let energies = omega2
+        .iter()
+        .zip(motion)
+        .map(|(w2, (q, v))| v * v + w2 * q * q);
+    let largest = energies.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
+    largest.map_or(0, |(mode, _)| mode)
+}
+
 /// Largest change of the balance relative to the largest energy seen.
 pub fn residual<'a>(ledgers: impl Iterator<Item = &'a Ledger>) -> f64 {
     let mut first = None;

@@ -37,6 +37,19 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// An explicit scheme was given masses that dofs share.
+    #[error(
+        "the central difference of a full model needs a diagonal mass matrix: take lumped masses, or the newmark method"
+    )]
+    CoupledMasses,
+    /// A scheme that the full model has not.
+    #[error(
+        "the {method} method does not take a full model; central_difference, newmark, hht and generalized_alpha do"
+    )]
+    NotInFamily {
+        /// The method.
+        method: &'static str,
+    },
     /// The mass matrix is not positive definite.
     #[error("the mass matrix is not positive definite: some motion has no mass")]
     SingularMass,
@@ -257,10 +270,25 @@ pub enum Error {
         law: usize,
     },
     /// The motion left the range of floating-point numbers.
-    #[error("the motion grew beyond all bounds at t = {time:e} s")]
+    #[error(
+        "the motion grew beyond all bounds at t = {time:e} s; take a smaller step, if the method has one, and check the units"
+    )]
     Overflow {
         /// Instant, in s.
         time: f64,
+    },
+    /// A run with steps blew up.
+    #[error(
+        "the motion blows up: at t = {time:e} s there is {ratio:.0e} times the energy that was there and was given{}; take a smaller step, or a method that is stable with any step, such as newmark",
+        most_of_it(*mode)
+    )]
+    BlowUp {
+        /// Instant, in s.
+        time: f64,
+        /// Energy from nowhere, over what was there and was given.
+        ratio: f64,
+        /// The mode that has most of it, counted from 0; a full model has none.
+        mode: Option<usize>,
     },
     /// Events follow each other without time advancing.
     #[error("the laws switch without end at t = {time:e} s")]
@@ -365,4 +393,11 @@ pub fn check_length(what: &'static str, values: &[f64], expected: usize) -> Resu
             expected,
         })
     }
+}
+
+/// Where most of an energy is, for a message.
+fn most_of_it(mode: Option<usize>) -> String {
+    mode.map_or_else(String::new, |mode| {
+        format!(", most of it in mode {}", mode + 1)
+    })
 }

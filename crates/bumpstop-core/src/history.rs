@@ -5,7 +5,7 @@ use crate::energy::{self, Ledger};
 use crate::error::{Error, Result, check_length};
 use crate::impacts::{Impact, Sample};
 use crate::law::{Law, Local, State, project};
-use crate::method::fixed_step::StepRecord;
+use crate::method::fixed_step::{StepRecord, sampled_states, step_ledgers};
 use crate::method::piecewise_linear::PhaseRecord;
 use crate::method::polynomial_steps::PolynomialRecord;
 use crate::problem::Problem;
@@ -168,6 +168,12 @@ impl<L: Law> History<L> {
         self.check_times(times)?;
         let modes = self.problem.system.modes();
         let mut rows = Vec::with_capacity(times.len() * modes);
+        if let (Record::Polynomials(record), Derivative::Acceleration) = (&self.record, derivative)
+            && record.layout.is_told()
+        {
+            record.slopes(times, |accelerations| rows.extend_from_slice(accelerations));
+            return Ok(rows);
+        }
         self.visit(times, |time, q, v, states| match derivative {
             Derivative::Displacement => rows.extend_from_slice(q),
             Derivative::Velocity => rows.extend_from_slice(v),
@@ -353,102 +359,6 @@ impl<L: Law> History<L> {
             }),
         }
     }
-}
-
-/// The ledger at every step; powers are integrated by the trapezoidal rule.
-fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger> {
-    let modes = problem.system.modes();
-    let mut v = vec![0.0; modes];
-    let mut ledgers: Vec<Ledger> = Vec::with_capacity(record.steps + 1);
-    let mut before: Option<Powers> = None;
-    let mut changing_work = 0.0;
-    for n in 0..=record.steps {
-        let q = record.displacement(n);
-        record.velocity(n, &mut v);
-        let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, &v);
-        let known = record.states(n);
-        let powers = Powers::new(problem, n as f64 * record.dt, known, q, &v);
-        let mut ledger = Ledger {
-            kinetic,
-            elastic,
-            law_stored: powers.stored.clone(),
-            law_dissipated: vec![0.0; problem.laws.len()],
-            load_work: problem.forcing.work(record.displacement(0), q),
-            modal_dissipation: 0.0,
-            circulatory_work: 0.0,
-            obstacle_work: 0.0,
-        };
-        if let (Some(previous), Some(last)) = (&before, ledgers.last()) {
-            let half = 0.5 * record.dt;
-            changing_work += half * (previous.load + powers.load);
-            ledger.load_work += changing_work;
-            ledger.modal_dissipation =
-                last.modal_dissipation + half * (previous.modal + powers.modal);
-            for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
-                let lost = problem.laws[i].switch_loss(
-                    previous.states[i],
-                    powers.states[i],
-                    &project(&problem.laws[i], q),
-                );
-                let power = previous.laws[i] + powers.laws[i];
-                *total = last.law_dissipated[i] + half * power + lost;
-            }
-        }
-        before = Some(powers);
-        ledgers.push(ledger);
-    }
-    ledgers
-}
-
-/// Powers and stored energies at one sampled instant.
-struct Powers {
-    modal: f64,
-    /// Of the loads that change in time.
-    load: f64,
-    laws: Vec<f64>,
-    stored: Vec<f64>,
-    states: Vec<State>,
-}
-
-impl Powers {
-    fn new<L: Law>(
-        problem: &Problem<L>,
-        time: f64,
-        known: impl Iterator<Item = State>,
-        q: &[f64],
-        v: &[f64],
-    ) -> Self {
-        let states = sampled_states(problem, known, q, v);
-        let laws = || problem.laws.iter().zip(&states);
-        Self {
-            modal: (problem.system.damping().iter().zip(v))
-                .map(|(c, v)| c * v * v)
-                .sum(),
-            load: problem.forcing.changing_power(time, v),
-            laws: laws()
-                .map(|(law, state)| {
-                    let (position, velocity) = (project(law, q), project(law, v));
-                    law.dissipated_power(*state, &position, &velocity)
-                })
-                .collect(),
-            stored: laws()
-                .map(|(law, state)| law.stored(*state, &project(law, q)))
-                .collect(),
-            states,
-        }
-    }
-}
-
-/// The laws' states that a motion shows, after those that a scheme saw at its last step.
-fn sampled_states<L: Law>(
-    problem: &Problem<L>,
-    known: impl Iterator<Item = State>,
-    q: &[f64],
-    v: &[f64],
-) -> Vec<State> {
-    (problem.laws.iter().zip(known))
-        .map(|(law, known)| law.sampled_state(known, &project(law, q), &project(law, v)))
-        .collect()
 }
 
 /// Linear between two ledgers.

@@ -1,6 +1,7 @@
 //! Python bindings of the core: convert, release the GIL, call, convert back.
 
 mod batch;
+mod full;
 mod history;
 mod modes;
 mod parts;
@@ -38,6 +39,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<parts::ZenerDamper>()?;
     module.add_class::<parts::Shape>()?;
     module.add_class::<parts::ShapedStop>()?;
+    module.add_class::<full::FullProblem>()?;
     module.add_class::<history::History>()?;
     module.add_class::<batch::Quantity>()?;
     module.add_class::<sparse::SparseFactor>()?;

@@ -3,14 +3,16 @@
 use crate::core_error;
 use crate::history::History;
 use crate::parts::{Forcing, LawPart, System, values};
-use bumpstop_core::error::Error;
+use bumpstop_core::error::{Error, Result};
+use bumpstop_core::history;
+use bumpstop_core::law::AnyLaw;
 use bumpstop_core::method::adaptive::{PairName, Tolerances};
 use bumpstop_core::method::fixed_step::Step;
 use bumpstop_core::method::one_step::{
     GeneralizedAlpha, Hht, Newmark, SchemeName, devogelaere, exponential, generalized_alpha, hht,
     newmark, trbdf2,
 };
-use bumpstop_core::method::{self, Method, central_difference, symplectic_euler};
+use bumpstop_core::method::{self, Method, Observer, central_difference, symplectic_euler};
 use bumpstop_core::problem::Problem;
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
@@ -23,7 +25,7 @@ use std::time::{Duration, Instant};
 const BETWEEN_REPORTS: Duration = Duration::from_millis(100);
 
 /// Parameters of a scheme, by name.
-type Parameters = HashMap<String, f64>;
+pub(crate) type Parameters = HashMap<String, f64>;
 
 /// Integrates a problem; releases the GIL.
 #[pyfunction]
@@ -57,10 +59,20 @@ pub fn simulate(
     )
     .map(Arc::new)
     .map_err(core_error)?;
-    let mut reporter = Reporter::new(progress, duration);
+    timed(py, Reporter::new(progress, duration), |observer| {
+        method::simulate(&problem, method, observer)
+    })
+}
+
+/// Runs something without the GIL, with its time, and with what the reporter says.
+pub(crate) fn timed(
+    py: Python<'_>,
+    mut reporter: Reporter,
+    run: impl FnOnce(Observer<'_>) -> Result<history::History<AnyLaw>> + Send,
+) -> PyResult<History> {
     let (solved, seconds) = py.detach(|| {
         let start = Instant::now();
-        let solved = method::simulate(&problem, method, &mut |time| reporter.report(time));
+        let solved = run(&mut |time| reporter.report(time));
         (solved, start.elapsed().as_secs_f64())
     });
     match (solved, reporter.raised) {
@@ -95,7 +107,7 @@ pub fn stability_limit(
 }
 
 /// The classical scheme of a name, with its usual parameters where none are given.
-fn scheme_named(name: &str, parameters: &Parameters) -> Option<SchemeName> {
+pub(crate) fn scheme_named(name: &str, parameters: &Parameters) -> Option<SchemeName> {
     let given = |name: &str, usual: f64| parameters.get(name).copied().unwrap_or(usual);
     let scheme = match name {
         newmark::NAME => {

@@ -135,7 +135,7 @@ pub(crate) fn matrix(what: &'static str, columns: &Columns) -> PyResult<SparseMa
 }
 
 /// Numbers of rows or columns; negative ones become too large to be any.
-fn places(array: &PyReadonlyArray1<i64>) -> Vec<usize> {
+pub(crate) fn places(array: &PyReadonlyArray1<i64>) -> Vec<usize> {
     let place = |&number: &i64| usize::try_from(number).unwrap_or(usize::MAX);
     array.as_array().iter().map(place).collect()
 }

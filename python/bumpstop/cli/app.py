@@ -290,12 +290,14 @@ def _takes_method(parser: ArgumentParser) -> None:
     parser.add_argument("--method", metavar="M", help=told)
     told = "The step of that method in s; as the case says if left out."
     parser.add_argument("--dt", type=float, metavar="S", help=told)
+    told = "The relative tolerance of that method; as the case says if left out."
+    parser.add_argument("--rtol", type=float, metavar="R", help=told)
 
 
 def _stepping(given: Namespace) -> Stepping:
     from bumpstop.cli.solve import Stepping
 
-    return Stepping(given.method, given.dt)
+    return Stepping(given.method, given.dt, given.rtol)
 
 
 def _takes_folder(parser: ArgumentParser, default: Path | None, told: str) -> None:

@@ -37,6 +37,7 @@ def converge_command(
             case,
             method=stepping.method,
             dt=stepping.dt,
+            rtol=stepping.rtol,
             levels=levels,
             progress=_fractions(3 * len(case.bases), tell),
         )

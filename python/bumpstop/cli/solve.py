@@ -12,7 +12,7 @@ import numpy as np
 from bumpstop.arguments import did_you_mean, positive
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.io.case import Case
-from bumpstop.methods import FIXED_STEP_METHODS, METHODS, usable_options
+from bumpstop.methods import ADAPTIVE_METHODS, FIXED_STEP_METHODS, METHODS, usable_options
 from bumpstop.post.references import Check, check_frequencies, check_references
 from bumpstop.response import Response
 from bumpstop.simulate import simulate
@@ -65,18 +65,23 @@ class Stepping(NamedTuple):
 
     method: str | None = None
     dt: float | None = None
+    rtol: float | None = None
 
     def check(self) -> None:
-        """Raise an error where there is no such method, or it has no step."""
+        """Raise an error where there is no such method, or it has no step or tolerance."""
         if self.method is not None and self.method not in METHODS:
             hint = did_you_mean(self.method, METHODS)
             raise InputError("unknown method", key="--method", value=self.method, hint=hint)
-        if self.dt is None:
-            return
-        if self.method not in FIXED_STEP_METHODS:
-            hint = f"give --method, too: {' or '.join(FIXED_STEP_METHODS)}"
-            raise InputError("only methods with fixed steps take it", key="--dt", hint=hint)
-        positive("--dt", self.dt)
+        if self.rtol is not None:
+            if self.method not in ADAPTIVE_METHODS:
+                hint = f"give --method, too: {' or '.join(ADAPTIVE_METHODS)}"
+                raise InputError("only adaptive methods take it", key="--rtol", hint=hint)
+            positive("--rtol", self.rtol)
+        if self.dt is not None:
+            if self.method not in FIXED_STEP_METHODS:
+                hint = f"give --method, too: {' or '.join(FIXED_STEP_METHODS)}"
+                raise InputError("only methods with fixed steps take it", key="--dt", hint=hint)
+            positive("--dt", self.dt)
 
 
 def solve_case(case: Case, stepping: Stepping, progress: Progress) -> CaseResult:
@@ -110,6 +115,8 @@ def _solved(case: Case, name: str, stepping: Stepping, progress: Progress) -> Va
     used = usable_options(chosen, options)
     if stepping.dt is not None:
         used["dt"] = stepping.dt
+    if stepping.rtol is not None:
+        used["rtol"] = stepping.rtol
     with _located(case, name), progress(f"{case.name}, {name}") as tell:
         with warnings.catch_warnings():
             # They are among the remarks, which are printed.

@@ -114,11 +114,12 @@ def _over_time(response: Response) -> Iterator[Variable]:
     # Read once, used by several: reading from the core takes longer than writing.
     motions = [response.motion(derivative) for derivative in range(len(MOTIONS))]
     yield Variable("time", ("time",), response.times, TIME)
-    yield from _modes(response, motions)
+    if not response.problem.basis.unreduced:
+        yield from _modes(response, motions)
     yield from _stops(response)
     yield from _gauges(response, motions[0])
     yield from _outputs(response, motions)
-    if response.problem.basis.model is not None:
+    if response.problem.basis.model is not None and response.kept is None:
         yield from _nodes(response, response.problem.basis.model, motions[0])
     yield from _energies(response)
 
@@ -188,9 +189,11 @@ def _gauges(response: Response, displacement: FloatArray) -> Iterator[Variable]:
     if not gauges:
         return
     names = _texts(gauge.name for gauge in gauges)
-    strains = np.stack([along(basis.gauge_row(gauge), displacement) for gauge in gauges], axis=1)
-    if response.problem.supports_move:
+    if response.problem.supports_move or response.kept is not None:
         strains = np.stack([response.sample("gauge", gauge.name) for gauge in gauges], axis=1)
+    else:
+        rows = [basis.gauge_row(gauge) for gauge in gauges]
+        strains = np.stack([along(row, displacement) for row in rows], axis=1)
     yield Variable("gauge", ("gauge",), names, {"long_name": "name of the gauge"})
     yield Variable("strain", ("time", "gauge"), strains, QUANTITIES["gauge"].attributes)
 
@@ -207,9 +210,10 @@ def _outputs(response: Response, motions: list[FloatArray]) -> Iterator[Variable
                 "dof": dof,
             }
             name = plain_name(f"{quantity}_{node}_{dof}")
-            values = along(row, motion)
-            if response.problem.supports_move:
+            if response.problem.supports_move or response.kept is not None:
                 values = response.sample(quantity, node, dof)
+            else:
+                values = along(row, motion)
             yield Variable(name, ("time",), values, attributes)
 
 
@@ -284,7 +288,7 @@ def _events(response: Response) -> Iterator[Variable]:
 
 def _problem(problem: Problem) -> Iterator[Variable]:
     """Give the whole problem, for those who make it again; huge ones are left out."""
-    if problem.basis.shapes.size > MOST_SHAPES:
+    if problem.basis.unreduced or problem.basis.shapes.size > MOST_SHAPES:
         return
     from bumpstop.io.statement import packed
 

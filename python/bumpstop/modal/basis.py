@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -92,6 +92,9 @@ class ModalBasis:
     dropped: tuple[str, ...] = field(default=(), repr=False)
     neglected: tuple[str, ...] = field(default=(), repr=False)
     sturm: SturmCount | None = field(default=None, repr=False)
+
+    unreduced: ClassVar[bool] = False
+    """Whether the coordinates are dofs, between which mass and stiffness couple."""
 
     def __post_init__(self) -> None:
         if not self.labels:

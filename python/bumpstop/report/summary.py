@@ -205,6 +205,8 @@ def _support(support: Support) -> str:
 
 def _basis(basis: ModalBasis) -> str:
     count = len(basis.omega2)
+    if basis.unreduced:
+        return f"none: a full model of {count:,} dofs"
     rigid = int(np.count_nonzero(basis.omega2 == 0.0))
     if rigid == count:
         return "1 rigid mode" if count == 1 else f"{count} rigid modes"

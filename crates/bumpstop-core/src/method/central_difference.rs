@@ -9,8 +9,8 @@
 
 use super::fixed_step::{
     ChangingLoads, Count, March, Modal, Setting, Step, StepRecord, VelocityRule, check_forces,
-    check_step, check_still, check_uncoupled, coupling, highest_frequency, in_lanes, law_force,
-    laws_damping, modal, pushed, run,
+    check_growth, check_step, check_still, check_uncoupled, coupling, highest_frequency, in_lanes,
+    law_force, laws_damping, modal, pushed, run,
 };
 use super::{Observer, check_linear};
 use crate::error::Result;
@@ -51,7 +51,7 @@ pub fn simulate<L: Law>(
         observer,
     };
     run(march, problem)?;
-    record.check()?;
+    check_growth(problem, &record)?;
     let events = record.events();
     Ok(History::of_steps(problem, NAME, record, events))
 }

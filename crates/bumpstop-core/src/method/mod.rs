@@ -3,6 +3,7 @@
 pub mod adaptive;
 pub mod central_difference;
 pub mod fixed_step;
+pub mod full;
 pub(crate) mod instant;
 pub mod one_step;
 pub mod piecewise_linear;

@@ -126,6 +126,9 @@ pub struct WeakestPivot {
     pub ratio: f64,
 }
 
+/// What [`Factor::solve_one`] works in.
+pub struct Scratch(MemBuffer);
+
 /// A factored symmetric matrix.
 #[derive(Debug)]
 pub struct Factor {
@@ -234,6 +237,32 @@ impl Factor {
         IntranodeLbltRef::new(symbolic, &self.values, &self.subdiagonal, order)
             .solve_in_place_with_conj(Conj::No, rhs, Par::Seq, MemStack::new(&mut scratch));
         Ok(())
+    }
+
+    /// Memory for solves of one right-hand side.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub fn scratch(&self) -> Result<Scratch> {
+        let needed = (self.analysis.symbolic).solve_in_place_scratch::<f64>(1, Par::Seq);
+        (MemBuffer::try_new(needed).map(Scratch)).map_err(|_| Error::Memory)
+    }
+
+    /// Solves for one right-hand side in place, in memory that was asked for before.
+    pub fn solve_one(&self, rhs: &mut [f64], scratch: &mut Scratch) {
+        let size = self.size();
+        if size == 0 {
+            return;
+        }
+        let order = PermRef::new_checked(&self.forward, &self.inverse, size);
+        let rhs = MatMut::from_column_major_slice_mut(rhs, size, 1);
+        IntranodeLbltRef::new(
+            &self.analysis.symbolic,
+            &self.values,
+            &self.subdiagonal,
+            order,
+        )
+        .solve_in_place_with_conj(Conj::No, rhs, Par::Seq, MemStack::new(&mut scratch.0));
     }
 
     /// As [`Factor::solve`], where there is a solution.

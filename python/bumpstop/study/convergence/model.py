@@ -105,7 +105,8 @@ class Model:
     @property
     def selection(self) -> ModeSelection:
         """Which modes the case asks for."""
-        selection: ModeSelection = checked_tables(self._given).basis.modes
+        selection: ModeSelection | None = checked_tables(self._given).basis.modes
+        assert selection is not None  # or the case could not have been built
         return selection
 
     @cached_property

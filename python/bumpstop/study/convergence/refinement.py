@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from bumpstop.arguments import count, one_of, positive
@@ -32,6 +32,7 @@ def converge(
     *,
     method: str | None = None,
     dt: float | None = None,
+    rtol: float | None = None,
     levels: int = 3,
     most_modes: int = 200,
     progress: Callable[[str], None] | None = None,
@@ -46,8 +47,9 @@ def converge(
     ----------
     case
         A case from a file, with references.
-    method, dt
-        How to integrate time, and the step in s, instead of as the case says.
+    method, dt, rtol
+        How to integrate time, and the step in s or the relative tolerance, instead of as the case
+        says.
     levels
         How often steps and elements are halved.
     most_modes
@@ -74,7 +76,8 @@ def converge(
     """
     if method is not None:
         one_of("method", method, METHODS)
-    step = None if dt is None else positive("dt", dt)
+    asked = {"dt": dt, "rtol": rtol}
+    own = {key: positive(key, value) for key, value in asked.items() if value is not None}
     limits = Limits(count("levels", levels), count("most_modes", most_modes))
     _check(case)
     builder = Builder(case.path.parent)
@@ -83,7 +86,7 @@ def converge(
     for name in case.bases:
         if case.references[name]:
             model = Model(case, name, builder)
-            variants[name] = _variant(model, name, _method(case, name, method, step), limits, tell)
+            variants[name] = _variant(model, name, _method(case, name, method, own), limits, tell)
     return Convergence(case, variants)
 
 
@@ -96,6 +99,10 @@ def _check(case: Case) -> None:
         what = "is missing: its values are what is refined"
         raise InputError(what, file=file, key="references", hint="add [[references]]")
     for document in case.documents.values():
+        if document["basis"].get("model") == "full":
+            what = "a full model has no modes whose number could be refined"
+            hint = 'ask a variant with model = "modal"'
+            raise InputError(what, file=file, key="basis.model", hint=hint)
         if "modes" in document:
             what = "modes of a file cannot be refined, neither their number nor their mesh"
             hint = "build the structure, or take its [matrices]"
@@ -114,14 +121,14 @@ def _check_damping(case: Case, file: str) -> None:
 
 
 def _method(
-    case: Case, variant: str, method: str | None, dt: float | None
+    case: Case, variant: str, method: str | None, asked: Mapping[str, float]
 ) -> tuple[str, dict[str, Any]]:
     """Return the method of a variant and its options."""
     if variant not in case.methods:
         return "auto", {}
     own, options = case.methods[variant]
     chosen = method or own
-    given = dict(options) | ({} if dt is None else {"dt": dt})
+    given = dict(options) | dict(asked)
     return chosen, {key: value for key, value in given.items() if key in OPTIONS[chosen]}
 
 

@@ -15,7 +15,9 @@ pub use pair::PairName;
 
 use super::fixed_step::check_forces;
 use super::instant::{self, Moment};
-use super::polynomial_steps::{Crossing, Equations, PolynomialRecord, Step, Watch, longest_step};
+use super::polynomial_steps::{
+    Crossing, Equations, Layout, PolynomialRecord, Step, Watch, longest_step,
+};
 use super::{Observer, observe};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
@@ -90,7 +92,7 @@ impl<'a, L: Law> Run<'a, L> {
             velocity: &problem.velocity,
         };
         instant::initial_states(problem, &mut states, start);
-        let mut equations = Equations::new(problem);
+        let mut equations = Equations::new(problem, Layout::new(problem));
         equations.take_states(&states);
         let layout = equations.layout.clone();
         let mut numbers = vec![0.0; layout.size()];

@@ -2,6 +2,7 @@
 //! step.
 
 mod laws;
+mod ledgers;
 mod loads;
 mod march;
 mod record;
@@ -11,6 +12,7 @@ mod states;
 pub use record::{StepRecord, VelocityRule};
 
 pub(crate) use laws::{coupling, law_force, pushed};
+pub(crate) use ledgers::{check_growth, sampled_states, step_ledgers};
 pub(crate) use loads::ChangingLoads;
 pub(crate) use march::{Count, March, Modal, in_lanes, modal, run};
 pub(crate) use setting::Setting;

@@ -31,7 +31,7 @@ impl Default for GeneralizedAlpha {
 }
 
 impl GeneralizedAlpha {
-    pub(super) fn weights(self) -> Result<Weights> {
+    pub(crate) fn weights(self) -> Result<Weights> {
         let rho = self.spectral_radius;
         Error::check_parameter("spectral_radius", rho, [0.0, 1.0])?;
         let alpha_m = (2.0 * rho - 1.0) / (rho + 1.0);

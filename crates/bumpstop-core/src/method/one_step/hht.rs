@@ -29,7 +29,7 @@ impl Default for Hht {
 }
 
 impl Hht {
-    pub(super) fn weights(self) -> Result<Weights> {
+    pub(crate) fn weights(self) -> Result<Weights> {
         Error::check_parameter("alpha", self.alpha, [-1.0 / 3.0, 0.0])?;
         Ok(Weights {
             alpha_m: 0.0,

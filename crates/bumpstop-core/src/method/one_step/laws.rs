@@ -27,14 +27,14 @@ const ROUNDINGS: f64 = 64.0;
 
 /// How unit forces along the laws' coordinates move the modes by the end of a stage.
 #[derive(Debug)]
-pub(super) struct Pushes {
+pub(crate) struct Pushes {
     /// On positions and on velocities of the coordinates, a row a coordinate.
     on: [Vec<f64>; 2],
 }
 
 impl Pushes {
     /// From modal displacements and velocities at the end of a stage, one pair for each unit force.
-    pub(super) fn new<L: Law>(
+    pub(crate) fn new<L: Law>(
         laws: &[L],
         displacement: &[Vec<f64>],
         velocity: &[Vec<f64>],
@@ -50,7 +50,7 @@ impl Pushes {
 }
 
 /// The rows of all laws, one after the other.
-pub(super) fn rows<L: Law>(laws: &[L]) -> impl Iterator<Item = &[f64]> {
+pub(crate) fn rows<L: Law>(laws: &[L]) -> impl Iterator<Item = &[f64]> {
     laws.iter().flat_map(|law| law.rows()).map(Vec::as_slice)
 }
 
@@ -60,7 +60,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// The laws, with their states and forces at the instant reached.
 #[derive(Debug, Clone)]
-pub(super) struct Laws<'a, L> {
+pub(crate) struct Laws<'a, L> {
     problem: &'a Problem<L>,
     /// The first coordinate of each law among all.
     first: Vec<usize>,
@@ -92,7 +92,7 @@ struct Iterate {
 
 impl<'a, L: Law> Laws<'a, L> {
     /// At t = 0.
-    pub(super) fn new(problem: &'a Problem<L>) -> Self {
+    pub(crate) fn new(problem: &'a Problem<L>) -> Self {
         let mut states = vec![State::FIRST; problem.laws.len()];
         let start = Moment {
             time: 0.0,
@@ -149,14 +149,14 @@ impl<'a, L: Law> Laws<'a, L> {
     }
 
     /// Adds the modal forces of all laws, times a factor, to modal numbers.
-    pub(super) fn add_forces(&self, factor: f64, to: &mut [f64]) {
+    pub(crate) fn add_forces(&self, factor: f64, to: &mut [f64]) {
         for (row, force) in rows(&self.problem.laws).zip(&self.forces) {
             add(factor * force, row, to);
         }
     }
 
     /// Adds what the forces push, one vector for each unit force, times a factor.
-    pub(super) fn push(&self, pushes: &[Vec<f64>], factor: f64, to: &mut [f64]) {
+    pub(crate) fn push(&self, pushes: &[Vec<f64>], factor: f64, to: &mut [f64]) {
         for (pushed, force) in pushes.iter().zip(&self.forces) {
             add(factor * force, pushed, to);
         }
@@ -167,7 +167,7 @@ impl<'a, L: Law> Laws<'a, L> {
     ///
     /// # Errors
     /// [`Error::NoContactForce`]
-    pub(super) fn meet(&mut self, pushes: &Pushes, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+    pub(crate) fn meet(&mut self, pushes: &Pushes, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
         if self.forces.is_empty() {
             return Ok(());
         }

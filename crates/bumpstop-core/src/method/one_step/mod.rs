@@ -17,21 +17,25 @@ mod structure;
 mod trace;
 pub mod trbdf2;
 
+pub(crate) use alpha_family::{AlphaFamily, Weights};
+pub(crate) use laws::{Laws, Pushes, rows};
+pub(crate) use structure::{Structure, each_scaled};
+pub(crate) use trace::{End, Trace};
+
 pub use generalized_alpha::GeneralizedAlpha;
 pub use hht::Hht;
 pub use newmark::Newmark;
 
 use super::fixed_step::{Step, check_forces, check_step, check_uncoupled, highest_frequency};
+use super::polynomial_steps::Layout;
 use super::{Observer, observe};
 use crate::error::{Error, Result};
 use crate::history::History;
 use crate::law::Law;
 use crate::problem::Problem;
 use crate::system::ModalSystem;
-use alpha_family::AlphaFamily;
-use laws::Laws;
 use std::sync::Arc;
-use trace::Trace;
+use structure::Modes;
 
 /// How often the observer is asked, in steps.
 const STEPS_BETWEEN_OBSERVATIONS: usize = 256;
@@ -88,6 +92,29 @@ impl SchemeName {
         }
     }
 
+    /// The weights of a scheme of Newmark's family.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`], and [`Error::NotInFamily`] for other schemes.
+    pub(crate) fn weights(&self) -> Result<Weights> {
+        match self {
+            Self::Newmark(newmark) => newmark.weights(),
+            Self::Hht(hht) => hht.weights(),
+            Self::GeneralizedAlpha(alpha) => alpha.weights(),
+            Self::TrBdf2 | Self::DeVogelaere | Self::Exponential => Err(Error::NotInFamily {
+                method: self.name(),
+            }),
+        }
+    }
+
+    /// The angle by which the highest undamped frequency may turn in a step.
+    pub(crate) fn largest_turn(&self) -> f64 {
+        match self {
+            Self::Newmark(newmark) => newmark.limit(),
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Whether each mode is carried by itself.
     fn goes_mode_by_mode(&self) -> bool {
         matches!(self, Self::DeVogelaere | Self::Exponential)
@@ -96,14 +123,14 @@ impl SchemeName {
 
 /// Modal displacements, velocities and accelerations at one instant.
 #[derive(Debug, Clone)]
-struct Motion {
-    q: Vec<f64>,
-    v: Vec<f64>,
-    a: Vec<f64>,
+pub(crate) struct Motion {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub a: Vec<f64>,
 }
 
 /// A scheme for one problem and step.
-trait Scheme<L: Law> {
+pub(crate) trait Scheme<L: Law> {
     /// Carries the motion and the laws from the start of a step to its end.
     fn step(&mut self, span: [f64; 2], motion: &mut Motion, laws: &mut Laws<'_, L>) -> Result<()>;
 }
@@ -119,7 +146,7 @@ pub fn simulate<L: Law>(
     observer: Observer<'_>,
 ) -> Result<History<L>> {
     let (name, h) = (scheme.name(), step.dt);
-    let trace = Trace::new(problem, h)?;
+    let trace = Trace::new(problem, Layout::new(problem), h)?;
     scheme.check()?;
     check_forces(name, &problem.laws)?;
     check_memories(name, &problem.laws)?;
@@ -128,22 +155,14 @@ pub fn simulate<L: Law>(
     }
     let limit = scheme.stability_limit(&problem.system, &problem.laws);
     check_step(name, step, limit)?;
+    let in_family = |weights: Weights| {
+        let modes = Modes::new(problem, weights.matrix(h))?;
+        AlphaFamily::new(modes, &problem.laws, weights, h)
+    };
     let trace = match scheme {
-        SchemeName::Newmark(newmark) => run(
-            AlphaFamily::new(problem, newmark.weights()?, h)?,
-            trace,
-            observer,
-        ),
-        SchemeName::Hht(hht) => run(
-            AlphaFamily::new(problem, hht.weights()?, h)?,
-            trace,
-            observer,
-        ),
-        SchemeName::GeneralizedAlpha(alpha) => run(
-            AlphaFamily::new(problem, alpha.weights()?, h)?,
-            trace,
-            observer,
-        ),
+        SchemeName::Newmark(newmark) => run(in_family(newmark.weights()?)?, trace, observer),
+        SchemeName::Hht(hht) => run(in_family(hht.weights()?)?, trace, observer),
+        SchemeName::GeneralizedAlpha(alpha) => run(in_family(alpha.weights()?)?, trace, observer),
         SchemeName::TrBdf2 => run(trbdf2::TrBdf2::new(problem, h)?, trace, observer),
         SchemeName::DeVogelaere => run(devogelaere::DeVogelaere::new(problem, h)?, trace, observer),
         SchemeName::Exponential => run(exponential::Exponential::new(problem, h), trace, observer),
@@ -153,7 +172,7 @@ pub fn simulate<L: Law>(
 }
 
 /// Refuses laws whose memory follows rate equations: the schemes are for equations of motion.
-fn check_memories<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
+pub(crate) fn check_memories<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
     match laws.iter().position(Law::flows) {
         Some(law) => Err(Error::FlowingMemory { method, law }),
         None => Ok(()),

@@ -34,7 +34,7 @@ impl Default for Newmark {
 }
 
 impl Newmark {
-    pub(super) fn weights(self) -> Result<Weights> {
+    pub(crate) fn weights(self) -> Result<Weights> {
         Error::check_parameter("beta", self.beta, [0.0, 1.0])?;
         Error::check_parameter("gamma", self.gamma, [0.5, 1.0])?;
         Ok(Weights {
@@ -46,7 +46,7 @@ impl Newmark {
     }
 
     /// Largest stable step of an undamped mode, times its angular frequency; damping raises it.
-    pub(super) fn limit(self) -> f64 {
+    pub(crate) fn limit(self) -> f64 {
         let lack = 0.5 * self.gamma - self.beta;
         if lack > 0.0 {
             1.0 / lack.sqrt()

@@ -1,11 +1,100 @@
 //! What the structure does to a step: its resistance, and the inverse that a step solves with.
 
-use super::laws::rows;
+use super::laws::{Laws, rows};
 use crate::error::{Error, Result};
 use crate::law::Law;
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 use faer::Mat;
+
+/// What carries the laws, for schemes that solve with one matrix in every step.
+pub(crate) trait Structure<L: Law> {
+    /// How many numbers a displacement has.
+    fn size(&self) -> usize;
+
+    /// The forces of the loads at a time.
+    fn load(&self, time: f64, to: &mut [f64]);
+
+    /// Takes `C v + K q` off forces.
+    fn resist(&self, q: &[f64], v: &[f64], to: &mut [f64]);
+
+    /// Takes `factor M a` off forces.
+    fn resist_inertia(&self, factor: f64, a: &[f64], to: &mut [f64]);
+
+    /// Solves with the matrix of the step.
+    ///
+    /// # Errors
+    /// [`Error::Memory`]
+    fn solve(&mut self, forces: &[f64], to: &mut [f64]) -> Result<()>;
+
+    /// Adds the forces of the laws, times a factor.
+    fn add_laws(&mut self, laws: &Laws<'_, L>, factor: f64, to: &mut [f64]);
+
+    /// What the matrix of the step makes of a unit force along each coordinate of the laws, times
+    /// a factor.
+    ///
+    /// # Errors
+    /// [`Error::Memory`]
+    fn kicks(&mut self, factor: f64) -> Result<Vec<Vec<f64>>>;
+
+    /// The part of a displacement that the laws see.
+    fn seen<'b>(&self, whole: &'b [f64], room: &'b mut Vec<f64>) -> &'b [f64];
+}
+
+/// Modes, with the inverse of a step.
+pub(super) struct Modes<'a, L> {
+    problem: &'a Problem<L>,
+    inverse: Inverse,
+}
+
+impl<'a, L: Law> Modes<'a, L> {
+    /// # Errors
+    /// [`Error::SingularStep`]
+    pub(super) fn new(
+        problem: &'a Problem<L>,
+        [unit, damping, stiffness]: [f64; 3],
+    ) -> Result<Self> {
+        let inverse = Inverse::new(&problem.system, unit, damping, stiffness)?;
+        Ok(Self { problem, inverse })
+    }
+}
+
+impl<L: Law> Structure<L> for Modes<'_, L> {
+    fn size(&self) -> usize {
+        self.problem.system.modes()
+    }
+
+    fn load(&self, time: f64, to: &mut [f64]) {
+        self.problem.forcing.at(time, to);
+    }
+
+    fn resist(&self, q: &[f64], v: &[f64], to: &mut [f64]) {
+        resist(&self.problem.system, q, v, to);
+    }
+
+    fn resist_inertia(&self, factor: f64, a: &[f64], to: &mut [f64]) {
+        for (to, a) in to.iter_mut().zip(a) {
+            *to -= factor * a;
+        }
+    }
+
+    fn solve(&mut self, forces: &[f64], to: &mut [f64]) -> Result<()> {
+        self.inverse.apply(forces, to);
+        Ok(())
+    }
+
+    fn add_laws(&mut self, laws: &Laws<'_, L>, factor: f64, to: &mut [f64]) {
+        laws.add_forces(factor, to);
+    }
+
+    fn kicks(&mut self, factor: f64) -> Result<Vec<Vec<f64>>> {
+        Ok(self.inverse.of_rows(self.problem, factor))
+    }
+
+    fn seen<'b>(&self, whole: &'b [f64], _: &'b mut Vec<f64>) -> &'b [f64] {
+        whole
+    }
+}
 
 /// Takes `C v + K q` off modal forces.
 pub(super) fn resist(system: &ModalSystem, q: &[f64], v: &[f64], to: &mut [f64]) {
@@ -99,7 +188,7 @@ pub(super) fn scaled(vector: &[f64], factor: f64) -> Vec<f64> {
 }
 
 /// Each of some vectors times a factor.
-pub(super) fn each_scaled(vectors: &[Vec<f64>], factor: f64) -> Vec<Vec<f64>> {
+pub(crate) fn each_scaled(vectors: &[Vec<f64>], factor: f64) -> Vec<Vec<f64>> {
     vectors
         .iter()
         .map(|vector| scaled(vector, factor))

@@ -7,6 +7,7 @@
 
 use super::Motion;
 use super::laws::Laws;
+use crate::energy::{self, Growth};
 use crate::error::{Error, Result};
 use crate::history::Event;
 use crate::law::{Law, State};
@@ -18,11 +19,14 @@ use crate::problem::Problem;
 /// Degree of the polynomials.
 const DEGREE: usize = 3;
 
+/// How often the energies are looked at, in steps.
+const STEPS_BETWEEN_LOOKS: usize = 16;
+
 /// Of the step, by which its number may exceed a whole one: rounding of a duration.
 const ROUNDING: f64 = 1e-9;
 
 /// The trace of a run.
-pub(super) struct Trace<'a, L> {
+pub(crate) struct Trace<'a, L> {
     problem: &'a Problem<L>,
     h: f64,
     steps: usize,
@@ -35,12 +39,16 @@ pub(super) struct Trace<'a, L> {
     /// Numbers and rates at both ends of the step.
     ends: [Vec<f64>; 2],
     rates: [Vec<f64>; 2],
+    /// Rates at both ends that are told and not made of the equations; none or those of all
+    /// numbers before the works.
+    told: [Vec<f64>; 2],
     /// The cubic of the step, and what a part of it is made of.
     rows: Vec<f64>,
     part: Part,
     cuts: Vec<Cut>,
-    /// The works of the energy ledger so far.
+    /// The works of the energy ledger so far, and what these say of it.
     works: Vec<f64>,
+    growth: Option<Growth>,
 }
 
 /// Numbers and rates at both ends of a part and in its middle, and its cubic.
@@ -59,12 +67,29 @@ struct Cut {
     switch: Option<(usize, &'static str)>,
 }
 
+/// What a scheme tells of the end of a step.
+pub(crate) trait End {
+    /// Writes the numbers before the works.
+    fn numbers(&self, to: &mut [f64]);
+
+    /// Writes their rates, where the equations of the problem do not say them.
+    fn rates(&self, _to: &mut Vec<f64>) {}
+}
+
+impl End for Motion {
+    fn numbers(&self, to: &mut [f64]) {
+        let (q, v) = to.split_at_mut(self.q.len());
+        q.copy_from_slice(&self.q);
+        v.copy_from_slice(&self.v);
+    }
+}
+
 impl<'a, L: Law> Trace<'a, L> {
     /// An empty one, for steps of width h.
     ///
     /// # Errors
     /// [`Error::NotPositive`], [`Error::NotFinite`] or [`Error::TooManySteps`].
-    pub(super) fn new(problem: &'a Problem<L>, h: f64) -> Result<Self> {
+    pub(crate) fn new(problem: &'a Problem<L>, layout: Layout, h: f64) -> Result<Self> {
         crate::error::check_finite("dt", &[h])?;
         if h <= 0.0 {
             return Err(Error::NotPositive {
@@ -72,8 +97,7 @@ impl<'a, L: Law> Trace<'a, L> {
                 value: h,
             });
         }
-        let equations = Equations::new(problem);
-        let layout = equations.layout.clone();
+        let equations = Equations::new(problem, layout.clone());
         let count = (problem.duration / h - ROUNDING).ceil().max(1.0);
         PolynomialRecord::check_room(&layout, DEGREE, count)?;
         let zeros = || vec![0.0; layout.size()];
@@ -87,6 +111,7 @@ impl<'a, L: Law> Trace<'a, L> {
             states: Vec::new(),
             ends: [zeros(), zeros()],
             rates: [zeros(), zeros()],
+            told: [Vec::new(), Vec::new()],
             rows: Vec::new(),
             part: Part {
                 numbers: [zeros(), zeros(), zeros()],
@@ -95,6 +120,7 @@ impl<'a, L: Law> Trace<'a, L> {
             },
             cuts: Vec::new(),
             works: vec![0.0; layout.size() - layout.works],
+            growth: None,
             record: PolynomialRecord::new(layout, DEGREE),
         })
     }
@@ -103,53 +129,67 @@ impl<'a, L: Law> Trace<'a, L> {
         self.problem
     }
 
-    pub(super) fn steps(&self) -> usize {
+    pub(crate) fn steps(&self) -> usize {
         self.steps
     }
 
-    pub(super) fn h(&self) -> f64 {
+    pub(crate) fn h(&self) -> f64 {
         self.h
     }
 
-    pub(super) fn done(self) -> (PolynomialRecord, Vec<Event>) {
+    pub(crate) fn done(self) -> (PolynomialRecord, Vec<Event>) {
         (self.record, self.events)
     }
 
     /// The motion at t = 0, in equilibrium.
     pub(super) fn begin(&mut self, laws: &Laws<'_, L>) -> Motion {
-        let Problem {
-            displacement,
-            velocity,
-            ..
-        } = self.problem;
-        let modes = displacement.len();
+        let modes = self.problem.displacement.len();
+        let mut motion = Motion {
+            q: self.problem.displacement.clone(),
+            v: self.problem.velocity.clone(),
+            a: vec![0.0; modes],
+        };
+        self.begin_at(&motion, laws);
+        (motion.a).copy_from_slice(&self.rates[1][modes..2 * modes]);
+        motion
+    }
+
+    /// Takes what is told of t = 0.
+    pub(crate) fn begin_at(&mut self, end: &impl End, laws: &Laws<'_, L>) {
         self.states.clone_from(&laws.states);
-        self.ends[1][..modes].copy_from_slice(displacement);
-        self.ends[1][modes..2 * modes].copy_from_slice(velocity);
         self.equations.loads.turn(0.0);
         self.equations.take_states(&self.states);
-        (self.equations).rates(0.0, &self.ends[1], &mut self.rates[1]);
-        Motion {
-            q: displacement.clone(),
-            v: velocity.clone(),
-            a: self.rates[1][modes..2 * modes].to_vec(),
-        }
+        self.take(end);
+        self.find_rates(1, 0.0);
+        let start = self
+            .equations
+            .layout
+            .ledger(self.problem, 0.0, &self.states, &self.ends[1]);
+        self.growth = Some(Growth::new(&start));
+    }
+
+    /// Takes what is told of the end of a step.
+    fn take(&mut self, end: &impl End) {
+        end.numbers(&mut self.ends[1][..self.equations.layout.works]);
+        self.told[1].clear();
+        end.rates(&mut self.told[1]);
+    }
+
+    /// The rates at one end of the step, in the states and loads that the equations are turned to.
+    fn find_rates(&mut self, end: usize, time: f64) {
+        let (rates, told) = (&mut self.rates[end], &self.told[end]);
+        self.equations.rates(time, &self.ends[end], rates);
+        rates[..told.len()].copy_from_slice(told);
     }
 
     /// Keeps a step.
     ///
     /// # Errors
     /// [`Error::LongRecord`]
-    pub(super) fn add(
-        &mut self,
-        span: [f64; 2],
-        motion: &Motion,
-        laws: &Laws<'_, L>,
-    ) -> Result<()> {
-        let modes = motion.q.len();
+    pub(crate) fn add(&mut self, span: [f64; 2], end: &impl End, laws: &Laws<'_, L>) -> Result<()> {
         self.ends.swap(0, 1);
-        self.ends[1][..modes].copy_from_slice(&motion.q);
-        self.ends[1][modes..2 * modes].copy_from_slice(&motion.v);
+        self.told.swap(0, 1);
+        self.take(end);
         self.cuts.clear();
         self.follow(span, &laws.states);
         self.find_switches(span, &laws.states);
@@ -170,37 +210,50 @@ impl<'a, L: Law> Trace<'a, L> {
         }
         // Memories go on, too, where states do not switch.
         self.states.copy_from_slice(&laws.states);
-        Ok(())
+        self.check_growth(span[1])
+    }
+
+    /// Refuses a motion that blows up.
+    fn check_growth(&mut self, time: f64) -> Result<()> {
+        let is_last = self.record.steps() == self.steps;
+        if !(is_last || self.record.steps().is_multiple_of(STEPS_BETWEEN_LOOKS)) {
+            return Ok(());
+        }
+        let layout = &self.equations.layout;
+        let mut numbers = self.ends[1].clone();
+        numbers[layout.works..].copy_from_slice(&self.works);
+        let ledger = layout.ledger(self.problem, time, &self.states, &numbers);
+        let Some(ratio) = self.growth.as_mut().and_then(|growth| growth.sees(&ledger)) else {
+            return Ok(());
+        };
+        let [q, v] = layout.motion(&numbers);
+        let whole = !layout.is_told();
+        let mode = whole.then(|| energy::largest_share(self.problem.system.omega2(), q, v));
+        Err(Error::BlowUp { time, ratio, mode })
     }
 
     /// Makes the cubic of the step, and cuts it at the knots of loads.
     fn follow(&mut self, [start, end]: [f64; 2], after: &[State]) {
-        let Self {
-            equations,
-            ends,
-            rates,
-            ..
-        } = self;
-        let mut knot = equations.loads.turn(start);
-        rates.swap(0, 1);
-        if equations.loads.vary() {
+        let mut knot = self.equations.loads.turn(start);
+        self.rates.swap(0, 1);
+        if self.equations.loads.vary() {
             // They may have jumped.
-            equations.take_states(&self.states);
-            equations.rates(start, &ends[0], &mut rates[0]);
+            self.equations.take_states(&self.states);
+            self.find_rates(0, start);
         }
         while knot < end {
             self.cuts.push(Cut {
                 theta: (knot - start) / self.h,
                 switch: None,
             });
-            knot = equations.loads.turn(knot);
+            knot = self.equations.loads.turn(knot);
         }
-        equations.take_states(after);
-        equations.rates(end, &ends[1], &mut rates[1]);
-        let [from, to] = &*ends;
-        let [first, last] = &*rates;
+        self.equations.take_states(after);
+        self.find_rates(1, end);
+        let [from, to] = &self.ends;
+        let [first, last] = &self.rates;
         write_cubic(self.h, [from, to], [first, last], &mut self.rows);
-        equations.loads.turn(start);
+        self.equations.loads.turn(start);
     }
 
     /// Cuts the step where laws switch that have other states at its end.

@@ -129,18 +129,31 @@ impl<'a, L: Law> ContactReader<'a, L> {
         self.problem.local(self.law, time, q, v)
     }
 
-    fn force_rate(&mut self, number: usize, time: f64) -> f64 {
-        let [position, velocity] = self.local(number, time);
+    /// The accelerations at the time that was read last.
+    fn acceleration(&self, number: usize, time: f64) -> Vec<f64> {
+        let layout = &self.record.layout;
+        if layout.is_told() {
+            let mut slopes = vec![0.0; 2 * layout.modes];
+            self.record.slope(number, time, &mut slopes);
+            return slopes.split_off(layout.modes);
+        }
         let Reading { numbers, states } = &self.reading;
-        let [displacement, rate] = self.record.layout.motion(numbers);
+        let [displacement, velocity] = layout.motion(numbers);
         let moment = Moment {
             time,
             displacement,
-            velocity: rate,
+            velocity,
             states,
         };
+        moment.acceleration(self.problem)
+    }
+
+    fn force_rate(&mut self, number: usize, time: f64) -> f64 {
+        let [position, velocity] = self.local(number, time);
+        let whole = self.acceleration(number, time);
+        let states = &self.reading.states;
         let law = &self.problem.laws[self.law];
-        let mut acceleration = project(law, &moment.acceleration(self.problem));
+        let mut acceleration = project(law, &whole);
         if self.problem.forcing.varies() {
             acceleration[0] -= self.problem.forcing.motion(self.law, time)[2];
         }

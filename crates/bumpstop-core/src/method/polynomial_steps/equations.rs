@@ -14,12 +14,18 @@ pub(crate) struct Layout {
     pub modes: usize,
     /// Where the memory of each law that flows begins.
     pub memories: Vec<Option<usize>>,
+    /// Where the structure's own energies begin, if they are told and not made of the motion.
+    told: Option<usize>,
     /// Where the works begin; numbers from there on do not feed back.
     pub works: usize,
 }
 
 /// Numbers of a memory.
 const MEMORY: usize = 2;
+
+/// Energies of the structure that a record may be told: kinetic and elastic, and what was lost to
+/// damping and given by loads.
+pub(crate) const TOLD: usize = 4;
 
 /// Works beside those of each law.
 const WORKS: usize = 4;
@@ -43,8 +49,25 @@ impl Layout {
         Self {
             modes,
             memories,
+            told: None,
             works,
         }
+    }
+
+    /// The same for a motion that is but a part of the structure's, whose energies are told.
+    pub(crate) fn told<L: Law>(problem: &Problem<L>) -> Self {
+        let layout = Self::new(problem);
+        Self {
+            told: Some(layout.works),
+            works: layout.works + TOLD,
+            ..layout
+        }
+    }
+
+    /// Whether accelerations and energies are told: the problem's equations are then not those of
+    /// the structure.
+    pub(crate) fn is_told(&self) -> bool {
+        self.told.is_some()
     }
 
     /// How many numbers there are.
@@ -106,8 +129,15 @@ impl Layout {
         numbers: &[f64],
     ) -> Ledger {
         let [q, v] = self.motion(numbers);
-        let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, v);
         let works = &numbers[self.works..];
+        let [kinetic, elastic, damped, given] = match self.told {
+            Some(at) => std::array::from_fn(|energy| numbers[at + energy]),
+            None => {
+                let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, v);
+                let given = problem.forcing.work(&problem.displacement, q) + works[LOADS];
+                [kinetic, elastic, works[MODAL], given]
+            }
+        };
         let laws = problem.laws.iter().enumerate();
         Ledger {
             kinetic,
@@ -118,9 +148,9 @@ impl Layout {
                     law.stored(self.state(index, states[index], numbers), &position)
                 })
                 .collect(),
-            modal_dissipation: works[MODAL],
+            modal_dissipation: damped,
             law_dissipated: works[WORKS..].to_vec(),
-            load_work: problem.forcing.work(&problem.displacement, q) + works[LOADS],
+            load_work: given,
             circulatory_work: works[CIRCULATORY],
             obstacle_work: works[OBSTACLES],
         }
@@ -140,10 +170,10 @@ pub(crate) struct Equations<'a, L> {
 }
 
 impl<'a, L: Law> Equations<'a, L> {
-    pub(crate) fn new(problem: &'a Problem<L>) -> Self {
+    pub(crate) fn new(problem: &'a Problem<L>, layout: Layout) -> Self {
         Self {
             problem,
-            layout: Layout::new(problem),
+            layout,
             loads: Loads::new(&problem.forcing),
             states: Vec::new(),
             pieces: Vec::new(),

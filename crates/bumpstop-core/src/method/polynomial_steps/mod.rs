@@ -18,5 +18,5 @@ mod watch;
 pub use record::PolynomialRecord;
 
 pub(crate) use dense::{Dense, cubic_rates, write_cubic};
-pub(crate) use equations::{Equations, Layout};
+pub(crate) use equations::{Equations, Layout, TOLD};
 pub(crate) use watch::{Crossing, Step, Watch, longest_step};

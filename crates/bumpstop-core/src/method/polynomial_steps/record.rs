@@ -1,7 +1,7 @@
 //! What a run keeps: the polynomial of every step.
 
 use super::contact::ContactReader;
-use super::dense::Dense;
+use super::dense::{Dense, cubic_rates};
 use super::equations::Layout;
 use crate::energy::{self, Ledger};
 use crate::error::{Error, Result};
@@ -150,6 +150,30 @@ impl PolynomialRecord {
             let [q, v] = self.layout.motion(&reading.numbers);
             see(time, q, v, &reading.states);
         }
+    }
+
+    /// Shows the slopes of the velocities at each time.
+    pub(crate) fn slopes(&self, times: &[f64], mut see: impl FnMut(&[f64])) {
+        let modes = self.layout.modes;
+        let mut slopes = vec![0.0; 2 * modes];
+        for &time in times {
+            self.slope(self.step_at(time), time, &mut slopes);
+            see(&slopes[modes..]);
+        }
+    }
+
+    /// The slopes of the numbers in a step at a time, as far as there is room for them; the
+    /// polynomials are cubics.
+    pub(crate) fn slope(&self, step: usize, time: f64, to: &mut [f64]) {
+        debug_assert_eq!(self.degree, 3);
+        let Step { start, h, .. } = self.list[step];
+        let size = self.layout.size();
+        let rows = (self.degree + 1) * size;
+        let dense = Dense {
+            rows: &self.rows[step * rows..][..rows],
+            size,
+        };
+        cubic_rates(dense, (time - start) / h, h, to);
     }
 
     /// The energy ledger at each time.

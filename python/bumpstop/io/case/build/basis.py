@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bumpstop.errors import InputError
 from bumpstop.io.case.build.names import named
 from bumpstop.io.case.build.structure import built_structure
 from bumpstop.io.case.keys import keyed
@@ -27,7 +28,20 @@ def built_basis(case: CaseFile, folder: Path) -> ModalBasis:
         return built_modes(case, case.modes, folder)
     structure = built_model(case, folder)
     table = case.basis
+    if table.model == "full":
+        from bumpstop.modal.full import FullModel
+
+        with keyed("basis"):
+            return FullModel.from_structure(
+                structure,
+                damping=table.damping,
+                mass=table.mass,
+                rigid_modes=table.rigid_modes,
+            )
     with keyed("basis"):
+        if table.modes is None:
+            hint = 'say how many modes, or model = "full"'
+            raise InputError("is missing", key="modes", hint=hint)
         return ModalBasis.from_structure(
             structure,
             modes=table.modes,

@@ -16,10 +16,21 @@ __all__ = ["BasisTable"]
 class BasisTable(Table):
     """The modes and static shapes on which the structure's motion is written."""
 
-    modes: Modes = Field(
+    model: Annotated[str, choice("modal", "full")] = Field(
+        default="modal",
+        description='`"full"` for the structure on its own dofs, not reduced: modes and static '
+        "shapes have no part in it then, and the method must be one that takes it",
+    )
+    mass: Annotated[str, choice("consistent", "lumped")] = Field(
+        default="consistent",
+        description="Masses of a full model: those of the shape functions, or diagonal ones, "
+        "which the explicit method needs",
+    )
+    modes: Modes | None = Field(
+        default=None,
         description='Number of modes, the lowest ones, rigid-body modes included; or `"all"`; '
         "or those of a band or around a frequency, in Hz: `{ band = [0, 500] }`, "
-        "`{ around = 120, count = 5 }`"
+        "`{ around = 120, count = 5 }`",
     )
     damping: ModalDamping = Field(
         default=0.0,

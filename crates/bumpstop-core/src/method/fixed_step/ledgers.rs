@@ -1,0 +1,153 @@
+//! The energy ledger along a record of steps, and whether it says that the run went wrong.
+
+use super::StepRecord;
+use crate::energy::{self, Growth, Ledger};
+use crate::error::{Error, Result};
+use crate::law::{Law, State, project};
+use crate::problem::Problem;
+
+/// Steps between two looks at the energy of the structure.
+const STRIDE: usize = 16;
+
+/// Refuses a record whose motion blew up.
+///
+/// # Errors
+/// [`Error::BlowUp`], or [`Error::Overflow`] where it left the range of numbers at once.
+pub(crate) fn check_growth<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Result<()> {
+    if is_calm(problem, record) {
+        return Ok(());
+    }
+    let mut growth = None;
+    let modes = problem.system.modes();
+    for (n, ledger) in step_ledgers(problem, record).iter().enumerate() {
+        let growth = growth.get_or_insert_with(|| Growth::new(ledger));
+        if let Some(ratio) = growth.sees(ledger) {
+            let mut v = vec![0.0; modes];
+            record.velocity(n, &mut v);
+            let omega2 = problem.system.omega2();
+            return Err(Error::BlowUp {
+                time: n as f64 * record.dt,
+                ratio,
+                mode: Some(energy::largest_share(omega2, record.displacement(n), &v)),
+            });
+        }
+    }
+    record.check()
+}
+
+/// Whether the energy of the structure alone stays so small that nothing can have blown up: that
+/// is quickly told, and true of nearly all runs.
+fn is_calm<L: Law>(problem: &Problem<L>, record: &StepRecord) -> bool {
+    let mut v = vec![0.0; problem.system.modes()];
+    let mut most = 0.0f64;
+    let mut start = None;
+    for n in (0..=record.steps).step_by(STRIDE).chain([record.steps]) {
+        let q = record.displacement(n);
+        record.velocity(n, &mut v);
+        let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, &v);
+        let held = kinetic + elastic.abs();
+        most = if held > most || held.is_nan() {
+            held
+        } else {
+            most
+        };
+        start.get_or_insert(held);
+    }
+    start.is_some_and(|start| most <= energy::BLOWN_UP * start)
+}
+
+/// The ledger at every step; powers are integrated by the trapezoidal rule.
+pub(crate) fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Vec<Ledger> {
+    let modes = problem.system.modes();
+    let mut v = vec![0.0; modes];
+    let mut ledgers: Vec<Ledger> = Vec::with_capacity(record.steps + 1);
+    let mut before: Option<Powers> = None;
+    let mut changing_work = 0.0;
+    for n in 0..=record.steps {
+        let q = record.displacement(n);
+        record.velocity(n, &mut v);
+        let (kinetic, elastic) = energy::of_structure(problem.system.omega2(), q, &v);
+        let known = record.states(n);
+        let powers = Powers::new(problem, n as f64 * record.dt, known, q, &v);
+        let mut ledger = Ledger {
+            kinetic,
+            elastic,
+            law_stored: powers.stored.clone(),
+            law_dissipated: vec![0.0; problem.laws.len()],
+            load_work: problem.forcing.work(record.displacement(0), q),
+            modal_dissipation: 0.0,
+            circulatory_work: 0.0,
+            obstacle_work: 0.0,
+        };
+        if let (Some(previous), Some(last)) = (&before, ledgers.last()) {
+            let half = 0.5 * record.dt;
+            changing_work += half * (previous.load + powers.load);
+            ledger.load_work += changing_work;
+            ledger.modal_dissipation =
+                last.modal_dissipation + half * (previous.modal + powers.modal);
+            for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
+                let lost = problem.laws[i].switch_loss(
+                    previous.states[i],
+                    powers.states[i],
+                    &project(&problem.laws[i], q),
+                );
+                let power = previous.laws[i] + powers.laws[i];
+                *total = last.law_dissipated[i] + half * power + lost;
+            }
+        }
+        before = Some(powers);
+        ledgers.push(ledger);
+    }
+    ledgers
+}
+
+/// Powers and stored energies at one sampled instant.
+struct Powers {
+    modal: f64,
+    /// Of the loads that change in time.
+    load: f64,
+    laws: Vec<f64>,
+    stored: Vec<f64>,
+    states: Vec<State>,
+}
+
+impl Powers {
+    fn new<L: Law>(
+        problem: &Problem<L>,
+        time: f64,
+        known: impl Iterator<Item = State>,
+        q: &[f64],
+        v: &[f64],
+    ) -> Self {
+        let states = sampled_states(problem, known, q, v);
+        let laws = || problem.laws.iter().zip(&states);
+        Self {
+            modal: (problem.system.damping().iter().zip(v))
+                .map(|(c, v)| c * v * v)
+                .sum(),
+            load: problem.forcing.changing_power(time, v),
+            laws: laws()
+                .map(|(law, state)| {
+                    let (position, velocity) = (project(law, q), project(law, v));
+                    law.dissipated_power(*state, &position, &velocity)
+                })
+                .collect(),
+            stored: laws()
+                .map(|(law, state)| law.stored(*state, &project(law, q)))
+                .collect(),
+            states,
+        }
+    }
+}
+
+/// The laws' states that a motion shows, after those that a scheme saw at its last step.
+pub(crate) fn sampled_states<L: Law>(
+    problem: &Problem<L>,
+    known: impl Iterator<Item = State>,
+    q: &[f64],
+    v: &[f64],
+) -> Vec<State> {
+    (problem.laws.iter().zip(known))
+        .map(|(law, known)| law.sampled_state(known, &project(law, q), &project(law, v)))
+        .collect()
+}
