@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from bumpstop.structure.dofs import DOFS
@@ -20,6 +21,7 @@ __all__ = [
     "dof_units",
     "modal_attributes",
     "plain_name",
+    "plain_names",
 ]
 
 
@@ -165,3 +167,32 @@ def plain_name(name: str) -> str:
     'displacement_AB_0_462_dy'
     """
     return re.sub(r"\W", "_", name, flags=re.ASCII)
+
+
+def plain_names(names: Iterable[str], longest: int | None = None) -> list[str]:
+    """Return plain names that differ, whatever others they are of: some get a number.
+
+    Parameters
+    ----------
+    names
+        Names, each another.
+    longest
+        Letters of a name at most; any number where left out.
+
+    Examples
+    --------
+    >>> plain_names(["gap_s-1", "gap_s_1", "gap_t"])
+    ['gap_s_1', 'gap_s_1_2', 'gap_t']
+    >>> plain_names(["displacement_of_one", "displacement_of_two"], longest=12)
+    ['displacement', 'displaceme_2']
+    """
+    found: dict[str, None] = {}
+    for name in names:
+        first = plain_name(name)[:longest]
+        plain, number = first, 1
+        while plain in found:
+            number += 1
+            tail = f"_{number}"
+            plain = (first if longest is None else first[: longest - len(tail)]) + tail
+        found[plain] = None
+    return list(found)

@@ -19,6 +19,8 @@ __all__ = ["write_mat"]
 
 LARGEST = 2**31
 """Bytes that a variable of version 5 can have."""
+LONGEST_NAME = 63
+"""Letters of a name in MATLAB; longer ones are cut, and the long names tell them whole."""
 
 
 def write_mat(response: Response, path: str | PathLike[str]) -> None:
@@ -47,7 +49,7 @@ def write_mat(response: Response, path: str | PathLike[str]) -> None:
         raise InputError(
             what, file=str(path), value=len(response.times), hint="take a longer sample"
         )
-    wanted = signals(response)
+    wanted = signals(response, LONGEST_NAME)
     blocks = [values for _, values in sampled_blocks(response, wanted)]
     columns = {
         each.name: np.concatenate([block[number] for block in blocks])

@@ -13,7 +13,7 @@ from bumpstop.errors import InputError
 from bumpstop.files import written_whole
 from bumpstop.io.netcdf_format import Growth, Variable, write_file
 from bumpstop.post.energy import ledger
-from bumpstop.projection import TRANSLATIONS, along
+from bumpstop.projection import TRANSLATIONS
 from bumpstop.quantities import (
     ENERGIES,
     IMPACTS,
@@ -22,7 +22,7 @@ from bumpstop.quantities import (
     STOP_ENERGIES,
     dof_units,
     modal_attributes,
-    plain_name,
+    plain_names,
 )
 from bumpstop.response import MOTIONS
 from bumpstop.structure.dofs import Dof
@@ -117,8 +117,8 @@ def _over_time(response: Response) -> Iterator[Variable]:
     if not response.problem.basis.unreduced:
         yield from _modes(response, motions)
     yield from _stops(response)
-    yield from _gauges(response, motions[0])
-    yield from _outputs(response, motions)
+    yield from _gauges(response)
+    yield from _outputs(response)
     if response.problem.basis.model is not None and response.kept is None:
         yield from _nodes(response, response.problem.basis.model, motions[0])
     yield from _energies(response)
@@ -184,37 +184,29 @@ def states_of(response: Response) -> list[str]:
     return sorted(words)
 
 
-def _gauges(response: Response, displacement: FloatArray) -> Iterator[Variable]:
-    gauges, basis = response.problem.gauges, response.problem.basis
+def _gauges(response: Response) -> Iterator[Variable]:
+    gauges = response.problem.gauges
     if not gauges:
         return
     names = _texts(gauge.name for gauge in gauges)
-    if response.problem.supports_move or response.kept is not None:
-        strains = np.stack([response.sample("gauge", gauge.name) for gauge in gauges], axis=1)
-    else:
-        rows = [basis.gauge_row(gauge) for gauge in gauges]
-        strains = np.stack([along(row, displacement) for row in rows], axis=1)
+    strains = np.stack([response.sample("gauge", gauge.name) for gauge in gauges], axis=1)
     yield Variable("gauge", ("gauge",), names, {"long_name": "name of the gauge"})
     yield Variable("strain", ("time", "gauge"), strains, QUANTITIES["gauge"].attributes)
 
 
-def _outputs(response: Response, motions: list[FloatArray]) -> Iterator[Variable]:
+def _outputs(response: Response) -> Iterator[Variable]:
     """Give motions of the outputs and of the nodes at the stops, a variable each."""
-    for node, dof in dict.fromkeys([*response.problem.outputs, *_stopped(response)]):
-        row = response.problem.basis.row(node, dof)
-        for quantity, motion in zip(MOTIONS, motions, strict=True):
-            attributes = {
-                "units": dof_units(quantity, dof),
-                "long_name": f"{quantity} of {node} along {dof}",
-                "node": node,
-                "dof": dof,
-            }
-            name = plain_name(f"{quantity}_{node}_{dof}")
-            if response.problem.supports_move or response.kept is not None:
-                values = response.sample(quantity, node, dof)
-            else:
-                values = along(row, motion)
-            yield Variable(name, ("time",), values, attributes)
+    places = dict.fromkeys([*response.problem.outputs, *_stopped(response)])
+    wanted = [(node, dof, quantity) for node, dof in places for quantity in MOTIONS]
+    names = plain_names(f"{quantity}_{node}_{dof}" for node, dof, quantity in wanted)
+    for name, (node, dof, quantity) in zip(names, wanted, strict=True):
+        attributes = {
+            "units": dof_units(quantity, dof),
+            "long_name": f"{quantity} of {node} along {dof}",
+            "node": node,
+            "dof": dof,
+        }
+        yield Variable(name, ("time",), response.sample(quantity, node, dof), attributes)
 
 
 def _stopped(response: Response) -> list[Dof]:

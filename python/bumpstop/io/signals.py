@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from bumpstop.projection import along
-from bumpstop.quantities import QUANTITIES, dof_units, plain_name
+from bumpstop.quantities import QUANTITIES, dof_units, plain_names
 from bumpstop.response import MOTIONS
 
 if TYPE_CHECKING:
@@ -31,14 +30,12 @@ class Signal(NamedTuple):
     units: str
     long_name: str
 
-    @property
-    def name(self) -> str:
-        """A name of letters, digits and underscores: ``displacement_B_dy``."""
-        return plain_name("_".join((self.quantity, *self.target)))
+    name: str
+    """A name of letters, digits and underscores, which no other has: ``displacement_B_dy``."""
 
 
-def signals(response: Response) -> list[Signal]:
-    """Return the signals of a response.
+def signals(response: Response, longest: int | None = None) -> list[Signal]:
+    """Return the signals of a response, whose names have at most so many letters.
 
     Motions of the problem's outputs and of the nodes at the stops; of the dof that the modes
     know first, where there is neither; forces and gaps of the stops, with friction their forces
@@ -46,16 +43,18 @@ def signals(response: Response) -> list[Signal]:
     """
     problem = response.problem
     places = [*problem.outputs, *(dof for law in problem.laws for dof in law.coordinate.dofs)]
-    found = [
-        _signal(quantity, *place)
+    found: list[tuple[str, ...]] = [
+        (quantity, *place)
         for place in dict.fromkeys(places or problem.basis.dofs[:1])
         for quantity in MOTIONS
     ]
     for law in problem.laws:
-        found += [_signal(quantity, law.name) for quantity in ("stop_force", "gap")]
+        found += [(quantity, law.name) for quantity in ("stop_force", "gap")]
         if getattr(law, "friction", None) is not None:
-            found.append(_signal("friction_force", law.name))
-    return [*found, *(_signal("gauge", gauge.name) for gauge in problem.gauges)]
+            found.append(("friction_force", law.name))
+    found += [("gauge", gauge.name) for gauge in problem.gauges]
+    names = plain_names(("_".join(parts) for parts in found), longest)
+    return [_signal(name, *parts) for name, parts in zip(names, found, strict=True)]
 
 
 def sampled_blocks(
@@ -65,29 +64,13 @@ def sampled_blocks(
     times = response.times
     for start in range(0, len(times), BLOCK):
         block = times[start : start + BLOCK]
-        yield block, _sampled(response, wanted, block)
+        yield block, [response.sample(each.quantity, *each.target, times=block) for each in wanted]
 
 
-def _signal(quantity: str, *target: str) -> Signal:
+def _signal(name: str, quantity: str, *target: str) -> Signal:
     if quantity in MOTIONS:
         node, dof = target
-        return Signal(
-            quantity, target, dof_units(quantity, dof), f"{quantity} of {node} along {dof}"
-        )
+        told = f"{quantity} of {node} along {dof}"
+        return Signal(quantity, target, dof_units(quantity, dof), told, name)
     what = QUANTITIES[quantity]
-    return Signal(quantity, target, what.units, f"{what.long_name} ({target[0]})")
-
-
-def _sampled(response: Response, wanted: Sequence[Signal], times: FloatArray) -> list[FloatArray]:
-    if response.problem.supports_move:
-        return [response.sample(each.quantity, *each.target, times=times) for each in wanted]
-    # Motions once for all nodes: to read them takes longer than to project them.
-    derivatives = {MOTIONS.index(each.quantity) for each in wanted if each.quantity in MOTIONS}
-    motions = {derivative: response.motion(derivative, times) for derivative in derivatives}
-    basis = response.problem.basis
-    return [
-        along(basis.row(*each.target), motions[MOTIONS.index(each.quantity)])
-        if each.quantity in MOTIONS
-        else response.sample(each.quantity, *each.target, times=times)
-        for each in wanted
-    ]
+    return Signal(quantity, target, what.units, f"{what.long_name} ({target[0]})", name)

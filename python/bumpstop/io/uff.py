@@ -133,7 +133,8 @@ def _write_values(file: TextIO, response: Response, signal: Signal) -> None:
     for times, (values,) in sampled_blocks(response, [signal]):
         numbers = values[:, np.newaxis] if even else np.stack([times, values], axis=1)
         whole = len(numbers) // columns * columns  # BLOCK is a multiple: only the last is short
-        np.savetxt(file, numbers[:whole].reshape(whole // columns, -1), fmt=form)
+        if whole:
+            np.savetxt(file, numbers[:whole].reshape(whole // columns, -1), fmt=form)
         if whole < len(numbers):
             rest = numbers[whole:].reshape(1, -1)
             np.savetxt(file, rest, fmt=form[: len(form) * (len(numbers) - whole) // columns])

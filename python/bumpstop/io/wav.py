@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.arguments import count, positive
+from bumpstop.arguments import count, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
 from bumpstop.io.signals import BLOCK, signals
+from bumpstop.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
@@ -62,6 +63,7 @@ def write_wav(
     if quantity is None:
         chosen = next(each for each in signals(response) if each.quantity == "velocity")
         quantity, target = chosen.quantity, chosen.target
+    one_of("quantity", quantity, tuple(QUANTITIES))
     pace = count("rate", rate) * positive("slowed", slowed)
     samples = int(response.problem.duration * pace) + 1
     if 2 * samples > MOST:
