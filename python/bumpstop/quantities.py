@@ -13,6 +13,8 @@ __all__ = [
     "ENERGIES",
     "FREQUENCY",
     "IMPACTS",
+    "MOST_BLOCKS",
+    "MOST_CLASSES",
     "QUANTITIES",
     "STATE",
     "STATISTICS",
@@ -134,6 +136,8 @@ STATISTICS = {
     "rms_force_in_contact": Quantity("N", "rms force over the time loaded", ("stop",)),
 }
 """Statistics of the impacts on a stop over a run, or over a block of its time."""
+MOST_BLOCKS = 10_000
+MOST_CLASSES = 100_000
 
 
 def dof_units(quantity: str, dof: str) -> str:

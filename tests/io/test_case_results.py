@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import bumpstop as bs
+from bumpstop.cli import main
 from bumpstop.report import write_report
 
 CASE = """
@@ -137,6 +138,30 @@ def test_they_read_what_the_functions_read(tmp_path: Path) -> None:
         (RESULTS["waterfall"].replace('segment = "0.2 s"', ""), "results.bad.segment", "is needed"),
         (RESULTS["floor"].replace('"0.2 kHz"', "0.5"), "results.bad.highest", "above the lowest"),
         (RESULTS["scar"].replace('length = "10 mm"', ""), "results.bad.length", "is needed"),
+        (RESULTS["clamp"].replace('"A"', '"AB@0.1"'), "results.bad.node", "unknown node"),
+        (
+            RESULTS["lines"].replace('"1 ms"', '"3 s"'),
+            "results.bad.sample",
+            "must be below the 2 s",
+        ),
+        (
+            RESULTS["waterfall"].replace('"0.2 s"', '"20 s"'),
+            "results.bad.segment",
+            "between two steps and the signal's",
+        ),
+        (RESULTS["spectrum"] + '\nwindow = "foo"', "results.bad.window", "no window of SciPy"),
+        (RESULTS["floor"].replace("0.05", "1.5"), "results.bad.damping.1", "below 1"),
+        ('type = "lyapunov"\nexponents = 300', "results.bad.exponents", "at most 6"),
+        (
+            'type = "poincare"\nnode = "B"\ndof = "dy"\nperiod = "3 s"',
+            "results.bad.period",
+            "does not fit twice",
+        ),
+        (
+            'type = "contact_statistics"\nstop = "wall"\nblocks = 1000000000000',
+            "results.bad.blocks",
+            "at most 10,000",
+        ),
         (
             RESULTS["root"].replace("section_forces", "section_force"),
             "results.bad.type",
@@ -156,3 +181,22 @@ def test_a_modal_case_has_none(tmp_path: Path) -> None:
     file.write_text(f"{modal}[results.bad]\n{RESULTS['clamp']}\n")
     with pytest.raises(bs.InputError, match="there are results"):
         bs.load_case(file)
+
+
+def test_a_result_that_cannot_be_read_leaves_the_others(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The rate of wear would rise: that is known once the run is made."""
+    wear = 'type = "wear"\nstop = "wall"\nlaw = "edf"\ncoefficient = 1e-30\nservice = ["10 years"]'
+    file = tmp_path / "case.toml"
+    tables = {"rising": wear, "counts": RESULTS["counts"]}
+    told = "".join(f"[results.{name}]\n{table}\n" for name, table in tables.items())
+    file.write_text(f"{CASE}{told}")
+    assert main(["run", str(file), "--out", str(tmp_path / "out")]) == 1
+    error = capsys.readouterr().err
+    assert f"{file}: results.rising: " in error
+    assert "above the rate of wear at first" in error
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "Could not be read: results.rising: " in page
+    assert "Number of impacts" in page
+    assert bs.read_netcdf(next((tmp_path / "out").glob("*/response.nc"))).event_count > 0

@@ -46,8 +46,13 @@ def older_outputs(folder: Path, written: Sequence[str]) -> list[str]:
     return sorted(set(names) - set(written))
 
 
-def write_outputs(result: CaseResult, folder: Path, exports: Exports, *, report: bool) -> None:
+def write_outputs(result: CaseResult, folder: Path, exports: Exports, *, report: bool) -> list[str]:
     """Write ``<variant>/response.nc`` of each variant that ran, exports, and ``report.html``.
+
+    Returns
+    -------
+    list of str
+        A line for each result of the case that could not be read.
 
     Raises
     ------
@@ -66,8 +71,7 @@ def write_outputs(result: CaseResult, folder: Path, exports: Exports, *, report:
             )
             for file in others:
                 response.export(staging / name / file)
-        if report:
-            _write_report(result, staging)
+        return _write_report(result, staging) if report else []
 
 
 def _response_files(variant: str, exports: Exports) -> list[str]:
@@ -77,8 +81,8 @@ def _response_files(variant: str, exports: Exports) -> list[str]:
     ]
 
 
-def write_report_alone(result: CaseResult, folder: Path) -> None:
-    """Write ``report.html``.
+def write_report_alone(result: CaseResult, folder: Path) -> list[str]:
+    """Write ``report.html``, and return a line for each result that could not be read.
 
     Raises
     ------
@@ -86,7 +90,7 @@ def write_report_alone(result: CaseResult, folder: Path) -> None:
         If it cannot be written; then the folder stays as it was.
     """
     with all_or_nothing(folder) as staging:
-        _write_report(result, staging)
+        return _write_report(result, staging)
 
 
 def write_convergence(found: Convergence, folder: Path) -> None:
@@ -124,11 +128,11 @@ def write_modes_page(case: Case, folder: Path) -> None:
         write_modes(case, checks, staging / MODES)
 
 
-def _write_report(result: CaseResult, folder: Path) -> None:
+def _write_report(result: CaseResult, folder: Path) -> list[str]:
     from bumpstop.report.html import write_modes, write_report
 
     checks = {variant.name: variant.checks for variant in result.variants}
     if result.responses:
-        write_report(result.case, result.responses, checks, folder / REPORT)
-    else:
-        write_modes(result.case, checks, folder / REPORT)
+        return write_report(result.case, result.responses, checks, folder / REPORT)
+    write_modes(result.case, checks, folder / REPORT)
+    return []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bumpstop.cli.console import print_line
+from bumpstop.cli.console import print_error, print_line
 from bumpstop.cli.outputs import REPORT, write_report_alone
 from bumpstop.cli.progress import progress_display
 from bumpstop.cli.solve import Stepping, solve_case
@@ -19,6 +19,8 @@ def report_command(path: Path, *, stepping: Stepping, out: Path) -> int:
     case = load_case(path)
     check_writable(out, [REPORT])
     result = solve_case(case, stepping, progress_display)
-    write_report_alone(result, out)
+    unread = write_report_alone(result, out)
     print_line(f"written to {out / REPORT}")
-    return 0 if result.passed else 1
+    for line in unread:
+        print_error(f"{path}: {line}")
+    return 0 if result.passed and not unread else 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from bumpstop.arguments import one_of
-from bumpstop.cli.console import print_json
+from bumpstop.cli.console import print_error, print_json
 from bumpstop.cli.outputs import Exports, output_names, write_outputs
 from bumpstop.cli.progress import progress_display
 from bumpstop.cli.records import case_record
@@ -38,15 +38,16 @@ def run_command(
         check_writable(out, names)
     result = solve_case(case, stepping, progress_display)
     record = case_record(result)
-    if out is not None:
-        write_outputs(result, out, exports, report=report)
+    unread = [] if out is None else write_outputs(result, out, exports, report=report)
     if json:
         print_json(record)
     else:
         print_summary(result, record)
         if out is not None:
             print_written(out, names)
-    return 0 if result.passed else 1
+    for line in unread:
+        print_error(f"{path}: {line}")
+    return 0 if result.passed and not unread else 1
 
 
 def _exports(case: Case, asked: str | None) -> Exports:

@@ -83,7 +83,7 @@ def amplitude_spectrum(
     import scipy.fft
 
     step, values = uniform_step(signal), _detrended(signal, detrend)
-    weights = _window(window, len(values))
+    weights = window_weights(window, len(values))
     lines = scipy.fft.rfft(values * weights) / weights.sum()
     lines[1:] *= 2.0
     if len(values) % 2 == 0:
@@ -137,11 +137,11 @@ def power_spectral_density(
     import scipy.signal
 
     step = uniform_step(signal)
-    length = _segment(segment, signal.size, step)
+    length = segment_samples(segment, signal.size, step)
     frequency, density = scipy.signal.welch(
         np.asarray(signal.values, dtype=np.float64),
         fs=1.0 / step,
-        window=_window(window, length),
+        window=window_weights(window, length),
         nperseg=length,
         noverlap=_overlap(overlap, length),
         detrend=_scipy_detrend(detrend),
@@ -184,11 +184,11 @@ def spectrogram(
     import xarray as xr
 
     step = uniform_step(signal)
-    length = _segment(segment, signal.size, step)
+    length = segment_samples(segment, signal.size, step)
     frequency, times, density = scipy.signal.spectrogram(
         np.asarray(signal.values, dtype=np.float64),
         fs=1.0 / step,
-        window=_window(window, length),
+        window=window_weights(window, length),
         nperseg=length,
         noverlap=_overlap(overlap, length),
         detrend=False,
@@ -277,7 +277,7 @@ def _scipy_detrend(detrend: str) -> Any:
     return False if one_of("detrend", detrend, DETREND) == "none" else detrend
 
 
-def _window(window: str, length: int) -> FloatArray:
+def window_weights(window: str, length: int) -> FloatArray:
     import scipy.signal
 
     try:
@@ -288,7 +288,7 @@ def _window(window: str, length: int) -> FloatArray:
     return weights
 
 
-def _segment(segment: float | None, samples: int, step: float) -> int:
+def segment_samples(segment: float | None, samples: int, step: float) -> int:
     """Return the length of a segment in samples."""
     if segment is None:
         return max(samples // 8, 2)

@@ -21,7 +21,7 @@ from bumpstop.post.contacts import (
 from bumpstop.post.impacts import impacts_of
 from bumpstop.post.peaks import largest_forces
 from bumpstop.post.spans import Spans, cut_spans, spans_within
-from bumpstop.quantities import COUNTED_IMPACTS, STATISTICS
+from bumpstop.quantities import COUNTED_IMPACTS, MOST_BLOCKS, MOST_CLASSES, STATISTICS
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,8 +35,6 @@ TOTALS = ("impact_count", "contact_time")
 """Statistics of the run that are the sums of its blocks'; the others are means, or largest."""
 SAME = 1e-12
 """Values that differ by less, relative to their size, fall into one class."""
-MOST_BLOCKS = 10_000
-MOST_CLASSES = 100_000
 
 
 @dataclass(frozen=True, eq=False)

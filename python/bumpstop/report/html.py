@@ -49,7 +49,7 @@ def write_report(
     checks: Mapping[str, Sequence[Check]],
     path: str | os.PathLike[str],
     convergence: Convergence | None = None,
-) -> None:
+) -> list[str]:
     """Write the report of a case to one HTML file.
 
     Parameters
@@ -65,6 +65,11 @@ def write_report(
     convergence
         How wrong the results can be, where that was found.
 
+    Returns
+    -------
+    list of str
+        A line for each result of the case that could not be read; the page says so, too.
+
     Raises
     ------
     InputError
@@ -78,6 +83,8 @@ def write_report(
     before, after = page.split(PLOTLY_MARK)
     with written_whole(path) as part, part.open("wb") as file:
         file.writelines([before.encode(), _plotly_script(), after.encode()])
+    results = [result for variant in content["variants"] for result in variant["results"]]
+    return list(dict.fromkeys(each["missing"] for each in results if each["missing"]))
 
 
 def write_modes(

@@ -251,8 +251,9 @@ def results(readings: Mapping[str, Reading]) -> list[dict[str, Any]]:
             for fact in reading.facts
         ]
         uncertain = any(np.isfinite(fact.uncertainty) for fact in reading.facts)
-        if rows:
-            told.append({"name": name, "rows": rows, "uncertain": uncertain})
+        if rows or reading.missing:
+            missing = reading.missing
+            told.append({"name": name, "rows": rows, "uncertain": uncertain, "missing": missing})
     return told
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bumpstop.laws.around_axis import StopAroundAxis
+from bumpstop.post.results.reading import read_result
 from bumpstop.report import figures, tables
 from bumpstop.report.orbit import orbit
 from bumpstop.report.published import published
@@ -60,7 +61,7 @@ class Variant:
         self.identity = identity
         self.response = response
         self.places = watched_places(response.problem, references)
-        self.readings = {result.name: result.read(response) for result in results}
+        self.readings = {result.name: read_result(result, response) for result in results}
         self.scene = motion_scene(response, self.places[0], drawing)
         self.figures = {
             f"{identity}-figure-{number}": figure

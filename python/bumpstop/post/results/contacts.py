@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bumpstop.arguments import count
 from bumpstop.post.results.reading import Drawn, Fact, Reading, check_span, check_stop
-from bumpstop.quantities import STATISTICS, Quantity
+from bumpstop.quantities import MOST_BLOCKS, MOST_CLASSES, STATISTICS, Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,6 +41,8 @@ class Statistics:
         """Raise where there is no such stop, or the time is not within the run."""
         check_stop(self.stop, problem)
         check_span(self.start, self.end, problem)
+        count("blocks", self.blocks, most=MOST_BLOCKS)
+        count("classes", self.classes, most=MOST_CLASSES)
 
     def read(self, response: Response) -> Reading:
         """Read the statistics, the blocks of the rms force, and histograms."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bumpstop.arguments import one_of
 from bumpstop.errors import InputError
 from bumpstop.post.results.reading import Drawn, Fact, Reading
 from bumpstop.quantities import Quantity
@@ -77,8 +78,12 @@ class Reactions:
     node: str
 
     def check(self, problem: Problem) -> None:
-        """Raise where there is no such node."""
-        problem.basis.row(self.node, "dx")
+        """Raise where there is no such node; a point along a beam is none."""
+        model = problem.basis.model
+        if model is None:
+            what = "reactions need a basis computed from a structure or matrices"
+            raise InputError(what, key="node", value=self.node)
+        one_of("node", self.node, list(dict.fromkeys(node for node, _ in model.dofs)))
 
     def read(self, response: Response) -> Reading:
         """Read the reactions that are not zero throughout."""

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.post.results.reading import Drawn, Fact, Reading, check_span
+from bumpstop.arguments import count
+from bumpstop.post.results.reading import Drawn, Fact, Reading, check_period, check_span
 from bumpstop.quantities import Quantity
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ class Section:
         """Raise where there is no such node, or the time is not within the run."""
         problem.basis.row(self.node, self.dof)
         check_span(self.start, None, problem)
+        check_period(self.period, self.start, problem)
 
     def read(self, response: Response) -> Reading:
         """Read velocities over displacements, and after how many periods the motion repeats."""
@@ -70,8 +72,10 @@ class Chaos:
     start: float = 0.0
 
     def check(self, problem: Problem) -> None:
-        """Raise where the time is not within the run."""
+        """Raise where the time is not within the run, or there are not so many exponents."""
         check_span(self.start, None, problem)
+        most = 2 * len(problem.basis.omega2)
+        count("exponents", self.exponents, most=most)
 
     def read(self, response: Response) -> Reading:
         """Read the exponents, and how the largest one converges."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from bumpstop.arguments import one_of
-from bumpstop.errors import InputError
+from bumpstop.errors import BumpstopError, InputError
 from bumpstop.quantities import Quantity
 
 if TYPE_CHECKING:
@@ -16,7 +16,17 @@ if TYPE_CHECKING:
     from bumpstop.problem import Problem
     from bumpstop.response import Response
 
-__all__ = ["Drawn", "Fact", "Reading", "Result", "check_span", "check_stop"]
+__all__ = [
+    "Drawn",
+    "Fact",
+    "Reading",
+    "Result",
+    "check_period",
+    "check_span",
+    "check_step",
+    "check_stop",
+    "read_result",
+]
 
 
 class Fact(NamedTuple):
@@ -40,6 +50,8 @@ class Reading(NamedTuple):
 
     facts: Sequence[Fact] = ()
     figures: Sequence[Drawn] = ()
+    missing: str = ""
+    """Why nothing was found, in a line; empty where something was."""
 
 
 class Result(Protocol):
@@ -54,6 +66,35 @@ class Result(Protocol):
 
     def read(self, response: Response) -> Reading:
         """Read it out of a run."""
+
+
+def read_result(result: Result, response: Response) -> Reading:
+    """Read a result out of a run; where that fails, the run and its other results stand."""
+    try:
+        return result.read(response)
+    except BumpstopError as error:
+        return Reading(missing=f"results.{result.name}: {error}")
+    except Exception as error:
+        told = f"this is a mistake in bumpstop itself: {type(error).__name__}: {error}"
+        return Reading(missing=f"results.{result.name}: {told}")
+
+
+def check_period(period: float, start: float, problem: Problem) -> None:
+    """Raise where not two periods of a clock that starts with the run are between two times."""
+    first, last = math.ceil(start / period - 1e-9), math.floor(problem.duration / period + 1e-9)
+    if last - first < 2:
+        what = (
+            f"does not fit twice between the start and the end of the run, {problem.duration:g} s"
+        )
+        raise InputError(what, key="period", value=period)
+
+
+def check_step(step: float, start: float, end: float | None, problem: Problem) -> None:
+    """Raise where samples with a step are fewer than two."""
+    last = problem.duration if end is None else end
+    if start + step > last * (1.0 + 1e-9):
+        what = f"must be below the {last - start:g} s that are sampled"
+        raise InputError(what, key="sample", value=step)
 
 
 def check_stop(stop: str, problem: Problem) -> None:

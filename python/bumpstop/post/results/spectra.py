@@ -11,7 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, one_of
 from bumpstop.errors import InputError
-from bumpstop.post.results.reading import Drawn, Reading, check_span
+from bumpstop.post.results.reading import Drawn, Reading, check_span, check_step
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -47,7 +47,19 @@ class Spectrum:
         if self.kind == "spectrogram" and self.segment is None:
             raise InputError("is needed for a spectrogram", key="segment")
         check_span(self.start, self.end, problem)
+        check_step(self.step, self.start, self.end, problem)
         _check_target(self.target, problem)
+        self._check_window(problem)
+
+    def _check_window(self, problem: Problem) -> None:
+        """Raise where there is no such window, or no such segment fits into the samples."""
+        from bumpstop.post.signals import segment_samples, window_weights
+
+        last = problem.duration if self.end is None else self.end
+        count = math.floor((last - self.start) / self.step + 1e-9) + 1
+        segmented = self.kind in ("density", "spectrogram")
+        length = segment_samples(self.segment, count, self.step) if segmented else 2
+        window_weights(self.window, min(length, count))
 
     def read(self, response: Response) -> Reading:
         """Read the spectrum."""
@@ -90,6 +102,11 @@ class FloorSpectrum:
         """Raise where there is no such node, or the time is not within the run."""
         problem.basis.row(self.node, self.dof)
         check_span(self.start, self.end, problem)
+        check_step(self.step, self.start, self.end, problem)
+        for number, damping in enumerate(self.damping):
+            if not 0.0 <= damping < 1.0:
+                what = "must be from 0 to below 1"
+                raise InputError(what, key=f"damping.{number}", value=damping)
 
     def read(self, response: Response) -> Reading:
         """Read a spectrum for each damping."""
