@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+import numpy as np
+
 __all__ = ["BumpstopError", "ComputationError", "InputError", "ModellingWarning", "blamed"]
 
 
@@ -64,7 +66,7 @@ class InputError(BumpstopError, ValueError):
 
     def _line(self) -> str:
         where = ": ".join(part for part in (self.file, self.key) if part)
-        shown = "" if self.value is None else f" (got {_shorten(repr(self.value))})"
+        shown = "" if self.value is None else f" (got {_shorten(repr(_as_written(self.value)))})"
         mend = f"; {self.hint}" if self.hint else ""
         return f"{where}: {self.what}{shown}{mend}" if where else f"{self.what}{shown}{mend}"
 
@@ -92,6 +94,23 @@ class ModellingWarning(UserWarning):
 
 class ComputationError(BumpstopError):
     """The input is good but the computation could not be finished."""
+
+
+def _as_written(value: object) -> object:
+    """Return what a user may have written: numbers of numpy have a longer ``repr``.
+
+    Examples
+    --------
+    >>> _as_written([np.float64(1.0), (np.int32(2), "a")])
+    [1.0, (2, 'a')]
+    """
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    if type(value) is list:
+        return [_as_written(part) for part in value]
+    if type(value) is tuple:
+        return tuple(_as_written(part) for part in value)
+    return value
 
 
 def _shorten(text: str, longest: int = 80) -> str:
