@@ -85,6 +85,7 @@ if TYPE_CHECKING:
         spectrogram,
     )
     from bumpstop.post.statistics import ContactStatistics, contact_statistics
+    from bumpstop.post.streams import SignalStatistics, Stream, signal_statistics
     from bumpstop.post.wear import ArchardWear, EdfWear, KwuEpriWear, WearWork, wear, wear_work
     from bumpstop.problem import Problem
     from bumpstop.report.arrays import plot
@@ -192,12 +193,14 @@ __all__ = [
     "Rotation",
     "Sampling",
     "Section",
+    "SignalStatistics",
     "SpectralDensity",
     "Spring",
     "SpringLaw",
     "StaticShapes",
     "StaticState",
     "Stop",
+    "Stream",
     "StructuralDamping",
     "Structure",
     "Study",
@@ -243,6 +246,7 @@ __all__ = [
     "recovery",
     "response_spectrum",
     "sampled_impacts",
+    "signal_statistics",
     "simulate",
     "sobol_indices",
     "spectrogram",
@@ -328,12 +332,14 @@ _HOME = {
     "Rotation": "modal.substructure.rotation",
     "Sampling": "study.sampling",
     "Section": "structure.sections.section",
+    "SignalStatistics": "post.streams",
     "SpectralDensity": "loads.density",
     "Spring": "structure.spring",
     "SpringLaw": "laws.spring",
     "StaticShapes": "modal.static_shapes",
     "StaticState": "loads.static_state",
     "Stop": "laws.stop",
+    "Stream": "post.streams",
     "StructuralDamping": "modal.damping",
     "Structure": "structure.structure",
     "Study": "study.study",
@@ -379,6 +385,7 @@ _HOME = {
     "recovery": "post.recovery",
     "response_spectrum": "post.response_spectrum",
     "sampled_impacts": "post.sampled",
+    "signal_statistics": "post.streams",
     "simulate": "simulate",
     "sobol_indices": "study.sensitivity",
     "spectrogram": "post.signals",

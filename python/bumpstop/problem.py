@@ -8,10 +8,9 @@ from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
-import numpy as np
-
 from bumpstop.arguments import FloatArray, all_of, listed, name, positive, refuse_twins
 from bumpstop.errors import InputError, blamed
+from bumpstop.instants import SNAP, Grid
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.structure.gauge import Gauge
 
@@ -24,9 +23,7 @@ __all__ = ["InitialState", "Law", "Load", "Problem"]
 
 
 DEFAULT_SAMPLES = 1000
-MOST_SAMPLES = 5_000_000
-SNAP = 1e-6
-"""A duration this close to a whole number of samples, in samples, is taken as whole."""
+MOST_SAMPLES = 1_000_000_000
 
 
 @runtime_checkable
@@ -148,16 +145,15 @@ class Problem:
         self._check_targets()
 
     @property
+    def grid(self) -> Grid:
+        """The sample grid: 0, sample, 2 sample, ... and always the duration, last."""
+        sample = self.duration / DEFAULT_SAMPLES if self.sample is None else self.sample
+        return Grid(step=sample, end=self.duration)
+
+    @property
     def times(self) -> FloatArray:
-        """The sample grid in s: 0, sample, 2 sample, ... and always the duration, last."""
-        interval = self.duration / DEFAULT_SAMPLES if self.sample is None else self.sample
-        ratio = self.duration / interval
-        whole = round(ratio)
-        if abs(ratio - whole) > SNAP:
-            return np.append(np.arange(int(ratio) + 1) * interval, self.duration)
-        times = np.arange(whole + 1, dtype=np.float64) * interval
-        times[-1] = self.duration
-        return times
+        """The instants of the sample grid in s."""
+        return self.grid[:]
 
     @property
     def stop_names(self) -> list[str]:

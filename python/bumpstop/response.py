@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
-from numbers import Integral
 from typing import TYPE_CHECKING, SupportsIndex
 
-import numpy as np
-
 from bumpstop.arguments import FloatArray, one_of
-from bumpstop.errors import InputError
+from bumpstop.instants import Grid, checked_times
 from bumpstop.labelled import modes_over_time, over_time
-from bumpstop.projection import along
-from bumpstop.quantities import QUANTITIES, STATE, dof_units
+from bumpstop.quantities import STATE, dof_units
+from bumpstop.sampling import sampled
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -30,11 +27,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Response"]
 
-ROUNDING = 1e-12
-"""How far beyond the simulated time an instant may lie, relative to the duration."""
-MOTIONS = ("displacement", "velocity", "acceleration")
-"""Position in this list is the derivative that the core is asked for."""
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Response:
@@ -46,8 +38,8 @@ class Response:
         What was simulated.
     history
         The core's record of the run.
-    times
-        Instants in s at which quantities are tabulated; `at` gives the same response on others.
+    instants
+        Times in s at which quantities are tabulated; `at` gives the same response on others.
     method_reason
         Why this method was taken.
     options
@@ -59,14 +51,15 @@ class Response:
     problem: Problem
     history: History
     _: KW_ONLY
-    times: FloatArray
+    instants: Grid | FloatArray
     method_reason: str
     options: Mapping[str, float]
     kept: IndexArray | None = None
 
     def __post_init__(self) -> None:
-        times = _checked_times(self.times, self.problem.duration)
-        object.__setattr__(self, "times", times)
+        if not isinstance(self.instants, Grid):
+            instants = checked_times(self.instants, self.problem.duration)
+            object.__setattr__(self, "instants", instants)
 
     def __repr__(self) -> str:
         return (
@@ -78,6 +71,16 @@ class Response:
         from bumpstop.post.card import response_card
 
         return response_card(self)
+
+    @cached_property
+    def times(self) -> FloatArray:
+        """Instants in s at which quantities are tabulated."""
+        return self.instants[:]
+
+    @property
+    def is_dense(self) -> bool:
+        """Whether it can be read at any instant: not where it comes from a file."""
+        return getattr(self.history, "is_dense", True)
 
     @property
     def method(self) -> str:
@@ -159,7 +162,29 @@ class Response:
         InputError
             If an instant is outside the simulated time.
         """
-        return replace(self, times=np.asarray(times))
+        return replace(self, instants=checked_times(times, self.problem.duration))
+
+    def blocks(self, most: int) -> Iterator[tuple[int, Response]]:
+        """Yield this response in blocks of its instants, each with the number of its first one.
+
+        What is read of one block after the other takes the memory of one block, however long the
+        run was.
+
+        Parameters
+        ----------
+        most
+            Instants of a block, at least 1.
+
+        Examples
+        --------
+        >>> import bumpstop as bs
+        >>> basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+        >>> swing = bs.simulate(bs.Problem(basis, duration=1.0, sample=0.1))
+        >>> [(start, len(block.times)) for start, block in swing.blocks(4)]
+        [(0, 4), (4, 4), (8, 3)]
+        """
+        for start in range(0, len(self.instants), most):
+            yield start, self.at(self.instants[start : start + most])
 
     # Plain arrays: what everything inside uses, so that a run needs no xarray or pandas.
 
@@ -206,33 +231,7 @@ class Response:
         >>> bs.simulate(drift).sample("displacement", "P", "dx", times=[0.0, 0.5]).tolist()
         [0.0, 1.0]
         """
-        one_of("quantity", quantity, (*QUANTITIES, "state"))
-        _check_target(quantity, target)
-        if quantity in MOTIONS:
-            node, dof = map(str, target)
-            row, derivative = self.problem.basis.row(node, dof), MOTIONS.index(quantity)
-            own = self._along(row, derivative, times)
-            if not self.problem.supports_move:
-                return own
-            from bumpstop.carried import carried_node
-
-            return own + carried_node(self.problem, node, dof, self._instants(times), derivative)
-        if quantity == "gauge":
-            return self._gauge_strain(str(target[0]), times)
-        if quantity == "state":
-            return np.array(self._states(str(target[0]), times))
-        if quantity == "friction_force":
-            return self._friction_force(str(target[0]), times)
-        if quantity in ("stop_force", "gap"):
-            law = self.law_index(str(target[0]))
-            distance, _, force = self.history.law_motion(law, self._instants(times))
-            return force if quantity == "stop_force" else distance
-        if self.kept is not None:
-            hint = "a smaller model or larger steps leave room for all"
-            raise InputError("are not kept for each dof", key="quantity", value=quantity, hint=hint)
-        motion = self.motion(MOTIONS.index(quantity.removeprefix("modal_")), times)
-        amplitudes = self.problem.basis.amplitudes(motion)
-        return amplitudes[:, self._mode_index(target[0])] if target else amplitudes
+        return sampled(self, quantity, target, self._instants(times))
 
     def law_index(self, stop: str) -> int:
         """Return the number of a stop or another law in the core, counted from 0.
@@ -491,45 +490,7 @@ class Response:
         export(self, path, form)
 
     def _instants(self, times: ArrayLike | None) -> FloatArray:
-        return self.times if times is None else _checked_times(times, self.problem.duration)
-
-    def _states(self, law: str, times: ArrayLike | None) -> list[str]:
-        return self.history.law_states(self.law_index(law), self._instants(times))
-
-    def _friction_force(self, law: str, times: ArrayLike | None) -> FloatArray:
-        forces = self.history.contact_forces(self.law_index(law), self._instants(times))
-        return forces[:, 1].copy()
-
-    def _along(self, row: FloatArray, derivative: int, times: ArrayLike | None) -> FloatArray:
-        """Return the motion (time,) of what a row of the basis (N,) stands for."""
-        if self.kept is not None:
-            if np.count_nonzero(row) != np.count_nonzero(row[self.kept]):
-                what = "was not kept: there are more dofs and steps than memory has room for"
-                raise InputError(what, key="target", hint="name the place among the outputs")
-            row = row[self.kept]
-        if MOTIONS[derivative] == "acceleration":
-            # From the equations of motion, which have the laws' forces to the last digit.
-            return along(row, self.motion(derivative, times))
-        return self.history.project(row, self._instants(times), derivative)
-
-    def _gauge_strain(self, name: str, times: ArrayLike | None) -> FloatArray:
-        gauges = {known.name: known for known in self.problem.gauges}
-        gauge = gauges[one_of("gauge", name, tuple(gauges))]
-        own = self._along(self.problem.basis.gauge_row(gauge), 0, times)
-        if not self.problem.supports_move:
-            return own
-        from bumpstop.carried import carried_gauge
-
-        return own + carried_gauge(self.problem, gauge, self._instants(times))
-
-    def _mode_index(self, mode: str | SupportsIndex) -> int:
-        modes = len(self.problem.basis.labels)
-        # numpy counts in integers of its own; True is no number of a mode.
-        whole = isinstance(mode, Integral) and not isinstance(mode, bool)
-        number = int(mode) if whole else 0
-        if not 1 <= number <= modes:
-            raise InputError(f"must be a mode from 1 to {modes}", key="mode", value=mode)
-        return number - 1
+        return self.times if times is None else checked_times(times, self.problem.duration)
 
     def _nodal(self, quantity: str, node: str, dof: str) -> xr.DataArray:
         return over_time(
@@ -541,28 +502,3 @@ class Response:
             node=node,
             dof=dof,
         )
-
-
-def _checked_times(times: ArrayLike, duration: float) -> FloatArray:
-    """Return instants as an array; those beyond an end by rounding alone are put on it."""
-    try:
-        instants = np.array(times, dtype=np.float64, ndmin=1)
-    except (TypeError, ValueError) as error:
-        raise InputError("must be numbers", key="times", value=times) from error
-    if instants.ndim != 1:
-        raise InputError("must be a list of instants", key="times", value=times)
-    outside = ~((instants >= -ROUNDING * duration) & (instants <= (1.0 + ROUNDING) * duration))
-    if outside.any():
-        what = f"must lie within the simulated time, 0 to {duration:g} s"
-        raise InputError(what, key="times", value=float(instants[outside][0]))
-    instants.clip(0.0, duration, out=instants)
-    instants.flags.writeable = False
-    return instants
-
-
-def _check_target(quantity: str, target: tuple[str | SupportsIndex, ...]) -> None:
-    wanted = STATE.target if quantity == "state" else QUANTITIES[quantity].target
-    if len(target) == len(wanted) or (wanted == ("mode",) and not target):
-        return
-    what = f"{quantity} is that of a {' and a '.join(wanted)}"
-    raise InputError(what, key="target", value=target)

@@ -181,7 +181,7 @@ def simulate(
     relative, absolute = tolerances or (None, None)
     told = {"dt": step, "rtol": relative, "atol": absolute, **parameters}
     options = {name: value for name, value in told.items() if value is not None}
-    return Response(problem, history, times=problem.times, method_reason=reason, options=options)
+    return Response(problem, history, instants=problem.grid, method_reason=reason, options=options)
 
 
 def _blame_scale(method: str, problem: Problem, error: Exception) -> None:
@@ -262,7 +262,7 @@ def _run_full(
     return Response(
         problem,
         history,
-        times=problem.times,
+        instants=problem.grid,
         method_reason=reason,
         options={"dt": step, **parameters},
         kept=None if whole else kept,

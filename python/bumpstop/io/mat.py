@@ -44,10 +44,10 @@ def write_mat(response: Response, path: str | PathLike[str]) -> None:
     """
     from scipy.io import savemat
 
-    if 8 * len(response.times) >= LARGEST:
+    if 8 * len(response.instants) >= LARGEST:
         what = f"holds at most {LARGEST // 8:,} samples a signal"
         raise InputError(
-            what, file=str(path), value=len(response.times), hint="take a longer sample"
+            what, file=str(path), value=len(response.instants), hint="take a longer sample"
         )
     wanted = signals(response, LONGEST_NAME)
     blocks = [values for _, values in sampled_blocks(response, wanted)]

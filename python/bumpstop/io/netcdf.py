@@ -24,7 +24,7 @@ from bumpstop.quantities import (
     modal_attributes,
     plain_names,
 )
-from bumpstop.response import MOTIONS
+from bumpstop.sampling import MOTIONS
 from bumpstop.structure.dofs import Dof
 
 if TYPE_CHECKING:
@@ -39,8 +39,10 @@ if TYPE_CHECKING:
 
 __all__ = ["states_of", "write_netcdf"]
 
-MOST_NUMBERS = 10_000_000
-"""Modes and dofs times instants, of which a block has no more; each makes some ten numbers."""
+MOST_NUMBERS = 1_000_000
+"""Columns times instants, of which a block has no more; each makes a few numbers."""
+OTHER_COLUMNS = 20
+"""Columns of the ledger and of all else that is there once."""
 MOST_SHAPES = 2_000_000
 """Numbers in the shapes of the largest basis that is kept with its response."""
 TIME = {"units": "s", "long_name": "time"}
@@ -80,43 +82,45 @@ def write_netcdf(
     """
     attributes = {"title": title, "case": case, "variant": variant} | _provenance(response)
     told = {name: value for name, value in attributes.items() if value is not None}
-    length, block = len(response.times), _block(response)
-    first = response if length <= block else response.at(response.times[:block])
-    further = None
-    if length > block:
-        further = Growth("time", length, _further(response, block))
+    length, words = len(response.instants), states_of(response)
+    blocks = response.blocks(_block(response))
+    first = [*_over_time(next(blocks)[1], words), *_of_the_run(response, words)]
     with written_whole(path) as part:
-        write_file(part, [*_over_time(first), *_of_the_run(response)], told, further)
+        write_file(part, first, told, Growth("time", length, _further(blocks, words)))
 
 
 def _block(response: Response) -> int:
     """Return how many instants are held in memory at a time."""
     basis = response.problem.basis
-    return max(MOST_NUMBERS // (len(basis.omega2) + len(basis.dofs)), 1)
+    own = len(basis.omega2) + len(basis.dofs) + len(response.problem.laws)
+    return max(MOST_NUMBERS // (OTHER_COLUMNS + own), 1)
 
 
-def _further(response: Response, block: int) -> Iterator[tuple[int, Iterator[Variable]]]:
-    for start in range(block, len(response.times), block):
-        yield start, _over_time(response.at(response.times[start : start + block]))
+def _further(
+    blocks: Iterator[tuple[int, Response]], words: list[str]
+) -> Iterator[tuple[int, Iterator[Variable]]]:
+    """Give where each further block begins, and what it holds."""
+    for start, block in blocks:
+        yield start, _over_time(block, words)
 
 
-def _of_the_run(response: Response) -> Iterator[Variable]:
+def _of_the_run(response: Response, words: list[str]) -> Iterator[Variable]:
     yield from _impacts(response)
     yield from _events(response)
     if response.problem.laws:
-        words = {"long_name": "what the flags of state mean"}
-        yield Variable("state_name", ("state_flag",), _texts(states_of(response)), words)
+        meaning = {"long_name": "what the flags of state mean"}
+        yield Variable("state_name", ("state_flag",), _texts(words), meaning)
     yield from _problem(response.problem)
 
 
-def _over_time(response: Response) -> Iterator[Variable]:
+def _over_time(response: Response, words: list[str]) -> Iterator[Variable]:
     """Give what is a function of time, and what its other dimensions are."""
     # Read once, used by several: reading from the core takes longer than writing.
     motions = [response.motion(derivative) for derivative in range(len(MOTIONS))]
     yield Variable("time", ("time",), response.times, TIME)
     if not response.problem.basis.unreduced:
         yield from _modes(response, motions)
-    yield from _stops(response)
+    yield from _stops(response, words)
     yield from _gauges(response)
     yield from _outputs(response)
     if response.problem.basis.model is not None and response.kept is None:
@@ -145,7 +149,7 @@ def _modes(response: Response, motions: list[FloatArray]) -> Iterator[Variable]:
             yield Variable(f"canonical_{quantity}", ("time", "mode"), motion, attributes)
 
 
-def _stops(response: Response) -> Iterator[Variable]:
+def _stops(response: Response, words: list[str]) -> Iterator[Variable]:
     stops = [law.name for law in response.problem.laws]
     if not stops:
         return
@@ -160,12 +164,11 @@ def _stops(response: Response) -> Iterator[Variable]:
         slides = np.stack([response.sample("friction_force", stop) for stop in stops], axis=1)
         attributes = QUANTITIES["friction_force"].attributes
         yield Variable("friction_force", ("time", "stop"), slides, attributes)
-    yield _states(response, stops)
+    yield _states(response, stops, words)
 
 
-def _states(response: Response, stops: list[str]) -> Variable:
+def _states(response: Response, stops: list[str], names: list[str]) -> Variable:
     """Return the states of the stops, as flags of the CF conventions."""
-    names = states_of(response)
     number = {name: flag for flag, name in enumerate(names)}
     flags = [[number[name] for name in response.sample("state", stop)] for stop in stops]
     attributes: dict[str, Any] = {

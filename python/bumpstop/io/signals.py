@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from bumpstop.quantities import QUANTITIES, dof_units, plain_names
-from bumpstop.response import MOTIONS
+from bumpstop.sampling import MOTIONS
 
 if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
@@ -61,10 +61,9 @@ def sampled_blocks(
     response: Response, wanted: Sequence[Signal]
 ) -> Iterator[tuple[FloatArray, list[FloatArray]]]:
     """Yield the instants of each block, and the values (instants,) of every signal at them."""
-    times = response.times
-    for start in range(0, len(times), BLOCK):
-        block = times[start : start + BLOCK]
-        yield block, [response.sample(each.quantity, *each.target, times=block) for each in wanted]
+    for start in range(0, len(response.instants), BLOCK):
+        times = response.instants[start : start + BLOCK]
+        yield times, [response.sample(each.quantity, *each.target, times=times) for each in wanted]
 
 
 def _signal(name: str, quantity: str, *target: str) -> Signal:

@@ -18,7 +18,8 @@ from bumpstop.io.statement import unpacked
 from bumpstop.methods import OPTIONS
 from bumpstop.problem import Problem
 from bumpstop.quantities import IMPACTS
-from bumpstop.response import MOTIONS, Response
+from bumpstop.response import Response
+from bumpstop.sampling import MOTIONS
 
 if TYPE_CHECKING:
     from bumpstop._core import History
@@ -69,7 +70,7 @@ def _response(file: h5py.File) -> Response:
     return Response(
         problem,
         cast("History", StoredHistory(file, problem, times)),
-        times=times,
+        instants=times,
         method_reason=str(attributes["method_reason"]),
         options=options,
     )
@@ -112,6 +113,8 @@ class StoredHistory:
     times
         The instants of the file in s, (n,).
     """
+
+    is_dense = False
 
     def __init__(self, file: h5py.File, problem: Problem, times: FloatArray) -> None:
         self._times = times

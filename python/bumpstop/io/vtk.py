@@ -17,7 +17,7 @@ from bumpstop.errors import InputError
 from bumpstop.files import written_whole
 from bumpstop.io.signals import BLOCK
 from bumpstop.projection import TRANSLATIONS
-from bumpstop.response import MOTIONS
+from bumpstop.sampling import MOTIONS
 from bumpstop.structure.drawn import DrawnModel
 from bumpstop.structure.model import BeamModel
 
@@ -111,12 +111,12 @@ def _write_steps(group: h5py.Group, times: FloatArray, points: int) -> None:
 
 
 def _write_fields(group: h5py.Group, response: Response, nodes: list[str]) -> None:
-    shape = (len(response.times) * len(nodes), 3)
+    shape = (len(response.instants) * len(nodes), 3)
     datasets = [group.create_dataset(field, shape, dtype=np.float64) for field in FIELDS]
     shapes = _shapes(response.problem.basis, nodes)
     block = max(BLOCK // len(nodes), 1)
-    for start in range(0, len(response.times), block):
-        times = response.times[start : start + block]
+    for start in range(0, len(response.instants), block):
+        times = response.instants[start : start + block]
         rows = slice(start * len(nodes), (start + len(times)) * len(nodes))
         for derivative, dataset in enumerate(datasets[:2]):
             moved = response.motion(derivative, times) @ shapes.T

@@ -10,7 +10,11 @@ from bumpstop.arguments import FloatArray, finite, one_of, positive
 from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import xarray as xr
+
+    from bumpstop.post.streams import Stream
 
 __all__ = [
     "amplitude_spectrum",
@@ -99,7 +103,7 @@ def amplitude_spectrum(
 
 
 def power_spectral_density(
-    signal: xr.DataArray,
+    signal: xr.DataArray | Stream,
     *,
     segment: float | None = None,
     overlap: float = 0.5,
@@ -114,7 +118,7 @@ def power_spectral_density(
     Parameters
     ----------
     signal
-        Over ``time``, evenly sampled.
+        Over ``time``, evenly sampled; or a `Stream`, which takes the memory of a few segments.
     segment
         Length of the segments that are averaged, in s; an eighth of the signal where left out.
     overlap
@@ -134,21 +138,21 @@ def power_spectral_density(
     InputError
         If the signal is not evenly sampled, or a value cannot be used.
     """
-    import scipy.signal
+    from bumpstop.post.streams import Stream
+    from bumpstop.post.welch import Welch
 
-    step = uniform_step(signal)
-    length = segment_samples(segment, signal.size, step)
-    frequency, density = scipy.signal.welch(
-        np.asarray(signal.values, dtype=np.float64),
-        fs=1.0 / step,
+    step = signal.step if isinstance(signal, Stream) else uniform_step(signal)
+    length = segment_samples(segment, len(signal), step)
+    average = Welch(
         window=window_weights(window, length),
-        nperseg=length,
-        noverlap=_overlap(overlap, length),
+        hop=length - _overlap(overlap, length),
         detrend=_scipy_detrend(detrend),
     )
-    return _over_frequency(
-        density, frequency, signal, "power spectral density", _density_units(signal)
-    )
+    for values in _blocks_of(signal, length):
+        average.add(values)
+    units = _density_units(signal)
+    name = "power spectral density"
+    return _over_frequency(average.density(step), average.frequencies(step), signal, name, units)
 
 
 def spectrogram(
@@ -229,13 +233,24 @@ def envelope(signal: xr.DataArray) -> xr.DataArray:
     return found
 
 
+def _blocks_of(signal: xr.DataArray | Stream, least: int) -> Iterator[FloatArray]:
+    """Yield the samples of a signal in blocks, of so many samples at least."""
+    from bumpstop.post.streams import BLOCK, Stream
+
+    if isinstance(signal, Stream):
+        for _, values in signal.blocks(max(BLOCK, least)):
+            yield values
+    else:
+        yield np.asarray(signal.values, dtype=np.float64)
+
+
 _HERTZ = {"units": "Hz", "long_name": "frequency"}
 
 
 def _over_frequency(
     values: FloatArray,
     frequency: FloatArray,
-    signal: xr.DataArray,
+    signal: xr.DataArray | Stream,
     name: str,
     units: str,
     **coordinates: Any,
@@ -251,15 +266,23 @@ def _over_frequency(
     )
 
 
-def _words(signal: xr.DataArray) -> str:
+def _words(signal: xr.DataArray | Stream) -> str:
+    from bumpstop.post.streams import Stream
+
+    if isinstance(signal, Stream):
+        return signal.words
     return str(signal.attrs.get("long_name", signal.name or "the signal"))
 
 
-def _units(signal: xr.DataArray) -> str:
+def _units(signal: xr.DataArray | Stream) -> str:
+    from bumpstop.post.streams import Stream
+
+    if isinstance(signal, Stream):
+        return signal.units
     return str(signal.attrs.get("units", "1"))
 
 
-def _density_units(signal: xr.DataArray) -> str:
+def _density_units(signal: xr.DataArray | Stream) -> str:
     units = _units(signal)
     return "1/Hz" if units == "1" else f"({units})^2/Hz"
 

@@ -14,10 +14,12 @@ if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
     from bumpstop.response import Response
 
-__all__ = ["MOST_POINTS", "contact_spans", "instants", "state_spans", "thin"]
+__all__ = ["MOST_POINTS", "contact_spans", "instants", "looked_at", "state_spans", "thin"]
 
 MOST_POINTS = 2000
 """Points of one curve: more than a wide screen has columns."""
+MOST_INSTANTS = 500_000
+"""Instants at which a motion is looked at for a picture."""
 
 
 def contact_spans(response: Response, stop: str | None = None) -> list[tuple[float, float]]:
@@ -47,14 +49,26 @@ def state_spans(response: Response, law: str, state: str) -> list[tuple[float, f
 def instants(response: Response, extra: Iterable[float] = ()) -> FloatArray:
     """Return the times at which a curve is looked at, ascending, in s.
 
-    They are the sample grid, every instant at which a stop closes, presses hardest or opens
-    (the kinks of the curves), and ``extra`` ones such as those of published values.
+    They are the sample grid and, where the motion between its instants is known, every instant at
+    which a stop closes, presses hardest or opens (the kinks of the curves), and ``extra`` ones
+    such as those of published values.
     """
+    if not response.is_dense:
+        return looked_at(response)
     table = response.impact_table()
     kinks = [*table["start"], *table["end"], *table["peak_time"]]
     added = np.array([*kinks, *extra], dtype=float)
     inside = (added >= 0.0) & (added <= response.problem.duration)
-    return np.union1d(response.times, added[inside])
+    return np.union1d(looked_at(response), added[inside])
+
+
+def looked_at(response: Response) -> FloatArray:
+    """Return the sample grid in s, or a coarser one where pictures do not need as many."""
+    if len(response.instants) <= MOST_INSTANTS:
+        return response.times
+    if not response.is_dense:
+        return response.instants[:: -(-len(response.instants) // MOST_INSTANTS)]
+    return np.linspace(0.0, response.problem.duration, MOST_INSTANTS)
 
 
 def thin(

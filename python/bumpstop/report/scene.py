@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bumpstop.report.curves import contact_spans
+from bumpstop.report.curves import contact_spans, looked_at
 from bumpstop.report.outline import UNSEEN, view_of
 from bumpstop.report.scales import scale_for, significant, with_unit
 from bumpstop.report.stops import fixed_stops
@@ -166,7 +166,7 @@ def _away_from(drawing: Outline, view: FloatArray, place: int) -> FloatArray:
 
 
 def _stop(law: Contact, drawing: Outline, view: FloatArray, response: Response) -> dict[str, Any]:
-    times = response.times
+    times = looked_at(response)
     return {
         "name": law.name,
         "label": f"{law.name}, {_give(law)}",

@@ -355,8 +355,8 @@ def _gauge(gauge: Gauge) -> str:
 
 
 def _time(problem: Problem) -> str:
-    sample = float(np.max(np.diff(problem.times)))
-    return f"{with_unit(problem.duration, 's')}, tabulated every {with_unit(sample, 's')}"
+    sample = with_unit(problem.grid.step, "s")
+    return f"{with_unit(problem.duration, 's')}, tabulated every {sample}"
 
 
 def _vector(components: Sequence[float], unit: str = "") -> str:

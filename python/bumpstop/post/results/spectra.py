@@ -65,22 +65,27 @@ class Spectrum:
         """Read the spectrum."""
         from bumpstop.post import signals
 
+        if self.kind == "density":
+            return Reading(figures=[Drawn(self._density(response), "y")])
         sampled = response.at(_grid(response, self.start, self.end, self.step))
         signal = _signal(sampled, self.target)
         match self.kind:
             case "amplitude":
                 array, log = signals.amplitude_spectrum(signal, window=self.window), "y"
-            case "density":
-                array = signals.power_spectral_density(
-                    signal, segment=self.segment, window=self.window
-                )
-                log = "y"
             case "spectrogram":
                 length = self.segment or 0.0
                 array, log = signals.spectrogram(signal, segment=length, window=self.window), "z"
             case _:
                 array, log = signals.envelope(signal), ""
         return Reading(figures=[Drawn(array, log)])
+
+    def _density(self, response: Response) -> xr.DataArray:
+        """Return the density of a signal that is never held as a whole."""
+        from bumpstop.post.signals import power_spectral_density
+        from bumpstop.post.streams import Stream
+
+        stream = Stream(response, *self.target, step=self.step, start=self.start, end=self.end)
+        return power_spectral_density(stream, segment=self.segment, window=self.window)
 
 
 @dataclass(frozen=True)
