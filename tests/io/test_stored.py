@@ -67,9 +67,10 @@ def test_what_is_read_equals_what_was_written(name: str, tmp_path: Path) -> None
     xr.testing.assert_identical(again.energy, response.energy)
     node, dof = response.problem.basis.dofs[-1]
     for quantity in ("displacement", "velocity", "acceleration"):
-        np.testing.assert_array_equal(
-            again.sample(quantity, node, dof), response.sample(quantity, node, dof)
-        )
+        # A file has the modes, whose sum is the node's: the core sums exponentials instead.
+        expected = response.sample(quantity, node, dof)
+        size = 1e-13 * np.abs(expected).max()
+        np.testing.assert_allclose(again.sample(quantity, node, dof), expected, rtol=0, atol=size)
     assert again.solve_seconds > 0.0
     assert again.problem.remarks == response.problem.remarks
 
