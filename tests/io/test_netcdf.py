@@ -9,8 +9,14 @@ import pytest
 import xarray as xr
 
 import bumpstop as bs
+from bumpstop.arguments import FloatArray
 
 from ..hinged_beam import SWING, end_stop, hinged_modes
+
+
+def assert_same(found: xr.DataArray, expected: FloatArray) -> None:
+    """Assert that a sum over modes is that of the core, which sums in another order."""
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13 * np.abs(expected).max())
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +48,7 @@ def test_xarray_finds_values_and_units(path: Path, thrown_beam: bs.Response) -> 
         np.testing.assert_array_equal(file["time"], thrown_beam.times)
         assert file["time"].attrs["units"] == "s"
         tip = file["displacement_B_dy"]
-        np.testing.assert_array_equal(tip, thrown_beam.sample("displacement", "B", "dy"))
+        assert_same(tip, thrown_beam.sample("displacement", "B", "dy"))
         assert tip.attrs["units"] == "m"
         force = file["stop_force"].sel(stop="spring")
         np.testing.assert_array_equal(force, thrown_beam.sample("stop_force", "spring"))
@@ -53,7 +59,7 @@ def test_xarray_finds_values_and_units(path: Path, thrown_beam: bs.Response) -> 
         assert gap.attrs["units"] == "m"
         for gauge in ("strain", "below"):
             strain = file["strain"].sel(gauge=gauge)
-            np.testing.assert_array_equal(strain, thrown_beam.sample("gauge", gauge))
+            assert_same(strain, thrown_beam.sample("gauge", gauge))
             assert np.abs(strain).max() > 1e-5
             assert strain.attrs["units"] == "1"
         np.testing.assert_array_equal(file["modal_velocity"], thrown_beam.motion(1))
@@ -80,7 +86,7 @@ def test_outputs_between_nodes_have_plain_names(path: Path, thrown_beam: bs.Resp
         assert turning.attrs["units"] == "rad/s"
         assert turning.attrs["node"] == "AB@0.462 m"
         expected = thrown_beam.sample("velocity", "AB@0.462 m", "drz")
-        np.testing.assert_array_equal(turning, expected)
+        assert_same(turning, expected)
 
 
 def test_tables(path: Path, thrown_beam: bs.Response) -> None:

@@ -161,9 +161,13 @@ def _stops(response: Response, words: list[str]) -> Iterator[Variable]:
     for name, values in (("stop_force", forces), ("gap", distances), ("gap_rate", rates)):
         yield Variable(name, ("time", "stop"), values, told[name])
     if any(getattr(law, "friction", None) is not None for law in response.problem.laws):
-        slides = np.stack([response.sample("friction_force", stop) for stop in stops], axis=1)
+        times = response.times
+        across = [response.history.contact_forces(stop, times) for stop in range(len(stops))]
+        _, slides, axial = np.stack(across, axis=2).transpose(1, 0, 2)
         attributes = QUANTITIES["friction_force"].attributes
         yield Variable("friction_force", ("time", "stop"), slides, attributes)
+        attributes = {"units": "N", "long_name": "friction force along the axis of the obstacle"}
+        yield Variable("axial_force", ("time", "stop"), axial, attributes)
     yield _states(response, stops, words)
 
 

@@ -122,7 +122,7 @@ class StoredHistory:
         self._laws = [law.name for law in problem.laws]
         own = "modal" if problem.basis.coordinates is None else "canonical"
         self._motions = [file[f"{own}_{quantity}"][()] for quantity in MOTIONS]
-        over_time = ("gap", "gap_rate", "stop_force", "friction_force", "state")
+        over_time = ("gap", "gap_rate", "stop_force", "friction_force", "axial_force", "state")
         self._over_time = {name: file[name][()] for name in over_time if name in file}
         energies = (name for name in file if name.startswith("energy_"))
         self._energies = {name.removeprefix("energy_"): file[name][()] for name in energies}
@@ -192,6 +192,13 @@ class StoredHistory:
         at = self._at(times)
         names = (name for name in ("stop_force", "friction_force") if name in self._over_time)
         return np.stack([self._over_time[name][at, law] for name in names], axis=1)
+
+    def contact_forces(self, law: int, times: FloatArray) -> FloatArray:
+        """Return the force along the normal of the contact and across it, (time, 3)."""
+        at = self._at(times)
+        names = ("stop_force", "friction_force", "axial_force")
+        known = [self._over_time[name][at, law] for name in names if name in self._over_time]
+        return np.stack([*known, *[np.zeros(len(times))] * (3 - len(known))], axis=1)
 
     def law_states(self, law: int, times: FloatArray) -> list[str]:
         """Return the state of one law at each time."""

@@ -50,7 +50,7 @@ def _columns(response: Response) -> Iterator[NDArray[np.generic]]:
         yield response.motion(derivative)
     for number, law in enumerate(response.problem.laws):
         yield from response.history.law_motion(number, response.times)
-        yield response.history.law_forces(number, response.times)[:, :2]
+        yield response.history.contact_forces(number, response.times)
         yield response.sample("state", law.name)
     found = ledger(response, response.times)
     yield from found.terms.values()
