@@ -330,6 +330,31 @@ def test_the_damping_of_the_stick_is_critical_where_it_is_left_out() -> None:
     assert law.stick_damping(free_mass()) == pytest.approx(2.0 * math.sqrt(1e5))
 
 
+@pytest.mark.parametrize("method", ["newmark", "hht", "trbdf2", "devogelaere"])
+def test_classical_schemes_take_it_without_friction(method: str) -> None:
+    """With smaller steps they come to where the adaptive method is."""
+    problem = bs.Problem(
+        free_mass((0.0, 40.0, 40.0)),
+        laws=[Hole(1e-3, 1e5, 30.0).stop()],
+        initial=bs.ModalState(displacement=[0.0, 2e-4, 0.0], velocity=[0.0, 0.2, 0.1]),
+        duration=0.05,
+    )
+
+    def place(response: bs.Response) -> float:
+        return float(response.sample("displacement", "P", "dz", times=[0.05])[0])
+
+    wanted = place(bs.simulate(problem, rtol=1e-11))
+    errors = [abs(place(bs.simulate(problem, method, dt=dt)) - wanted) for dt in (4e-5, 1e-5)]
+    assert errors[1] < 0.1 * errors[0] < 1e-7
+
+
+@pytest.mark.parametrize("method", ["newmark", "central_difference"])
+def test_friction_in_two_directions_is_for_adaptive_methods(method: str) -> None:
+    problem = bs.Problem(free_mass(), laws=[FRICTION.stop()], duration=1e-3)
+    with pytest.raises(bs.InputError, match=r"'hole'.*round.*dop853"):
+        bs.simulate(problem, method, dt=1e-6)
+
+
 @pytest.mark.parametrize("method", ["exact", "central_difference"])
 def test_methods_for_linear_laws_refuse_it(method: str) -> None:
     problem = bs.Problem(free_mass(), laws=[SMOOTH.stop()], duration=1e-3)

@@ -57,6 +57,11 @@ class ShapedStop(ABC):
         assert self.coordinate  # checks the nodes
         self._check_friction()
 
+    @property
+    def flows(self) -> bool:
+        """Whether it follows a rate equation: that of the stretch of its friction."""
+        return self.friction is not None
+
     @cached_property
     @abstractmethod
     def axes(self) -> FloatArray:
