@@ -28,7 +28,7 @@ def states(
     stiffness: Array,
     damping: Array,
     load: tuple[Array, Array],
-    values: Sequence[float],
+    values: Sequence[float] | Array,
     steps_a_second: int,
 ) -> Array:
     """Return ``(q, q')`` at each knot, from rest, one row a knot.
