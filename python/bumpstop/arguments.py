@@ -26,6 +26,7 @@ __all__ = [
     "pair",
     "positive",
     "refuse_twins",
+    "samples",
     "series",
     "vector",
 ]
@@ -110,6 +111,14 @@ def pair(key: str, value: object) -> tuple[float, float]:
 def series(key: str, value: object) -> tuple[float, ...]:
     """Return finite numbers, at least one."""
     return _numbers(key, value)
+
+
+def samples(key: str, value: object) -> FloatArray:
+    """Return numbers as an array of any shape; those that are not finite stay."""
+    try:
+        return np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError("must be numbers", key=key) from error
 
 
 def all_of(key: str, kind: type[T], value: object) -> tuple[T, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import tracemalloc
 from collections.abc import Iterator
@@ -204,3 +205,20 @@ def test_nothing_but_data_is_made_of_a_file(tmp_path: Path, old: bytes, new: byt
         file["problem"] = np.frombuffer(content.getvalue(), dtype=np.uint8)
     with pytest.raises(bs.InputError, match="holds a problem that cannot be made here"):
         bs.read_netcdf(tmp_path / "response.nc")
+
+
+def test_a_file_with_flipped_bytes_is_read_or_refused(tmp_path: Path) -> None:
+    """No other error than that of a file that cannot be used."""
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    start = bs.ModalState(velocity=[1.0])
+    run = bs.simulate(bs.Problem(basis, initial=start, duration=1.0, sample=0.1))
+    run.to_netcdf(tmp_path / "run.nc")
+    content = (tmp_path / "run.nc").read_bytes()
+    chance = np.random.default_rng(0)
+    for _ in range(60):
+        damaged = bytearray(content)
+        for place in chance.integers(0, len(content), 20):
+            damaged[place] ^= int(chance.integers(1, 256))
+        (tmp_path / "damaged.nc").write_bytes(damaged)
+        with contextlib.suppress(bs.BumpstopError):
+            bs.read_netcdf(tmp_path / "damaged.nc")

@@ -52,7 +52,7 @@ def read_netcdf(path: str | PathLike[str]) -> Response:
                 return _response(content)
         except FileNotFoundError as error:
             raise InputError("no such file", hint="check the path") from error
-        except (OSError, KeyError) as error:
+        except (OSError, KeyError, RuntimeError) as error:  # h5py raises all three
             what = "is no response that bumpstop wrote, or is damaged"
             raise InputError(what, hint="Response.to_netcdf writes one") from error
 

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Periodicity", "bifurcation", "impact_section", "periodicity", "stroboscopic_section"]
 
+MOST_STROBES = 10_000_000
+"""Instants of a section at most."""
+
 
 def stroboscopic_section(
     response: Response,
@@ -240,6 +243,9 @@ def _states(response: Response, times: FloatArray) -> FloatArray:
 def _strobes(response: Response, period: float, phase: float, start: float) -> FloatArray:
     step, shift = positive("period", period), finite("phase", phase) % 1.0
     duration = response.problem.duration
+    if duration / step > MOST_STROBES:
+        what = f"leaves more than {MOST_STROBES:,} instants"
+        raise InputError(what, key="period", value=period)
     first = int(np.ceil(not_negative("start", start) / step - shift - 1e-9))
     last = int(np.floor(duration / step - shift + 1e-9))
     if last < first:

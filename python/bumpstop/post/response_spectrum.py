@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from bumpstop.arguments import FloatArray, finite, one_of, series
+from bumpstop.arguments import FloatArray, finite, one_of, samples, series
 from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
@@ -35,6 +35,8 @@ QUANTITIES = {
 SIDES = ("both", "positive", "negative")
 STEPS_A_PERIOD = 60
 """Instants a period of the oscillator at least: the peak between them errs by 3e-7."""
+MOST_STEPS = 30_000_000
+"""Of an oscillator, at most."""
 
 
 def response_spectrum(
@@ -93,6 +95,7 @@ def response_spectrum(
     hertz = np.array(series("frequency", frequency))
     if (hertz <= 0.0).any():
         raise InputError("must be positive", key="frequency", value=float(hertz.min()))
+    _check_length(times, float(hertz.max()))
     ratio = finite("damping", damping)
     if not 0.0 <= ratio < 1.0:
         raise InputError("must be from 0 to below 1", key="damping", value=damping)
@@ -246,11 +249,22 @@ def _phi(z: Complexes) -> tuple[Complexes, Complexes, Complexes]:
     return whole, np.where(small, series_one, one), np.where(small, series_two, two)
 
 
+def _check_length(times: FloatArray, highest: float) -> None:
+    """Refuse oscillators that swing more often than memory has room for."""
+    most = MOST_STEPS / STEPS_A_PERIOD
+    if (times[-1] - times[0]) * highest > most:
+        what = f"must be at most {most / (times[-1] - times[0]):.3g} Hz over a time so long"
+        raise InputError(what, key="frequency", value=highest)
+
+
 def _checked(acceleration: xr.DataArray) -> tuple[FloatArray, FloatArray]:
-    if acceleration.dims != ("time",) or acceleration.size < 2:
+    if getattr(acceleration, "dims", None) != ("time",) or "time" not in acceleration.coords:
+        hint = "such as response.acceleration(node, dof)"
+        raise InputError("must be labelled, over time", key="acceleration", hint=hint)
+    if acceleration.size < 2:
         raise InputError("must be over time, of two instants or more", key="acceleration")
-    times = np.asarray(acceleration["time"].values, dtype=np.float64)
-    values = np.asarray(acceleration.values, dtype=np.float64)
+    times = samples("acceleration.time", acceleration["time"].values)
+    values = samples("acceleration", acceleration.values)
     if not (np.diff(times) >= 0.0).all() or not np.isfinite(values).all():
         raise InputError("must be finite, over ascending times", key="acceleration")
     return times, values

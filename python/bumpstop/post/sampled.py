@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, not_negative
+from bumpstop.arguments import FloatArray, not_negative, samples
 from bumpstop.errors import InputError
 from bumpstop.post.contacts import labelled_columns
 
@@ -66,12 +66,11 @@ def sampled_impacts(
     0    1.0  3.0      5.0
     1    5.0  NaN      0.5
     """
-    speeds = np.full(len(np.atleast_1d(times)), np.nan) if closing_speed is None else closing_speed
-    columns = impact_samples(
-        *(np.asarray(column, dtype=np.float64) for column in (times, force, speeds)),
-        threshold=threshold,
-        rest=rest,
-    )
+    instants, forces = samples("times", times), samples("force", force)
+    speeds = np.full(instants.shape, np.nan)
+    if closing_speed is not None:
+        speeds = samples("closing_speed", closing_speed)
+    columns = impact_samples(instants, forces, speeds, threshold=threshold, rest=rest)
     return labelled_columns(columns)
 
 
@@ -126,6 +125,11 @@ def _widths(times: FloatArray) -> FloatArray:
 def _check(times: FloatArray, force: FloatArray, speed: FloatArray) -> None:
     if times.ndim != 1 or len(times) < 2 or not np.all(np.diff(times) > 0.0):
         raise InputError("must be two or more instants in ascending order", key="times")
+    if not np.isfinite(times).all():
+        raise InputError("must be finite", key="times")
+    # Speeds may be unknown, forces not: a gap in them would be taken as no contact.
+    if not np.isfinite(force).all():
+        raise InputError("must be finite", key="force")
     for key, values in (("force", force), ("closing_speed", speed)):
         if values.shape != times.shape:
             what = f"must be as many as there are times, {len(times)}"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, finite, one_of, positive
+from bumpstop.arguments import FloatArray, finite, one_of, positive, samples
 from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
@@ -35,12 +35,18 @@ def uniform_step(signal: xr.DataArray) -> float:
     Raises
     ------
     InputError
-        If the signal is not over time alone, or its instants are not evenly spaced.
+        If the signal is not of finite numbers over time alone, or its instants are not evenly
+        spaced.
     """
-    if signal.dims != ("time",) or signal.size < 2:
-        what = "must be a signal over time, of two instants or more"
-        raise InputError(what, key="signal", value=f"dimensions {signal.dims}")
-    steps = np.diff(np.asarray(signal["time"].values, dtype=np.float64))
+    if getattr(signal, "dims", None) != ("time",) or "time" not in signal.coords:
+        hint = "such as response.velocity(node, dof)"
+        raise InputError("must be a labelled signal over time", key="signal", hint=hint)
+    if signal.size < 2:
+        what = "must be of two instants or more"
+        raise InputError(what, key="signal", value=f"{signal.size} instants")
+    if not np.isfinite(samples("signal", signal.values)).all():
+        raise InputError("must be finite", key="signal")
+    steps = np.diff(samples("signal.time", signal["time"].values))
     mean = float(steps.mean())
     if mean <= 0.0 or float(np.abs(steps - mean).max()) > EVEN * mean:
         hint = "take response.at(np.arange(n) * step)"

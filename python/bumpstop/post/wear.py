@@ -299,6 +299,9 @@ def wear(
     """
     import xarray as xr
 
+    if not callable(getattr(law, "volume", None)):
+        hint = "such as ArchardWear(1e-15)"
+        raise InputError("must be a wear law", key="law", value=law, hint=hint)
     service = np.array([not_negative("times", time) for time in series("times", times)])
     work = wear_work(response, stop, start=start, end=end)
     volume = law.volume(work, service)

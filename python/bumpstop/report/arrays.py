@@ -23,6 +23,7 @@ __all__ = ["array_figure", "plot"]
 THIN = 1e-2
 """Least width of a bar, relative to where it stands."""
 KINDS = ("line", "bars", "points", "map")
+LOGARITHMIC = ("", "x", "y", "z", "xy", "xz", "yz", "xyz")
 MOST_CELLS = 250_000
 """Cells of a map: more only make the page heavy."""
 
@@ -57,6 +58,12 @@ def plot(array: xr.DataArray, kind: str | None = None, *, log: str = "") -> go.F
 
 def array_figure(array: xr.DataArray, kind: str | None = None, *, log: str = "") -> Figure:
     """Return the figure that `plot` draws, as a plain dict."""
+    if not hasattr(array, "dims") or not hasattr(array, "attrs"):
+        what = "must be a labelled array, as responses and results give them"
+        raise InputError(what, key="array", value=type(array).__name__)
+    if log not in LOGARITHMIC:
+        hint = f"known: {', '.join(LOGARITHMIC[1:])}"
+        raise InputError("unknown axes", key="log", value=log, hint=hint)
     kind = kind or str(array.attrs.get("drawn", "line" if array.ndim == 1 else "map"))
     if kind not in KINDS or array.ndim != (2 if kind == "map" else 1):
         what = f"an array of {array.ndim} dimensions cannot be drawn so"

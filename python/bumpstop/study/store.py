@@ -270,5 +270,5 @@ def _said(path: Path) -> Iterator[None]:
         hint = "what is there is whole; mend it and go on with --resume (resume=True)"
         what = f"cannot be written: {reason}"
         raise InputError(what, file=str(path), key="store", hint=hint) from error
-    except (KeyError, ValueError) as error:
+    except (KeyError, ValueError, RuntimeError) as error:  # codecs of zarr raise the last
         raise InputError("is damaged", file=str(path), key="store", hint=str(error)) from error
