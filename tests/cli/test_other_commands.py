@@ -251,6 +251,38 @@ def test_verify_refuses(
     assert error.count("\n") == 1
 
 
+@pytest.fixture
+def written(tmp_path: Path) -> Path:
+    """The folder of a run of SDNL32."""
+    assert main(["run", str(SDNL32), "--out", str(tmp_path / "run"), "--no-report"]) == 0
+    return tmp_path / "run"
+
+
+def test_report_of_several_runs(
+    written: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = tmp_path / "pages" / "both.html"
+    capsys.readouterr()
+    files = [str(written / name / "response.nc") for name in ("soft", "stiff")]
+    assert main(["report", *files, str(SDNL32), "-o", str(page)]) == 0
+    assert capsys.readouterr().out == f"written to {page}\n"
+    assert [file.name for file in page.parent.iterdir()] == ["both.html"]
+    text = page.read_text()
+    for name in ("run/soft", "run/stiff", "sdnl32/soft", "sdnl32/stiff"):
+        assert f'<th scope="col">{name}</th>' in text
+
+
+def test_runs_of_one_name_are_told_apart(written: Path, tmp_path: Path) -> None:
+    file = str(written / "soft" / "response.nc")
+    assert main(["report", file, file, "--out", str(tmp_path)]) == 0
+    assert "run/soft (2)" in (tmp_path / "compare.html").read_text()
+
+
+def test_one_run_is_not_compared(written: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["report", str(written / "soft" / "response.nc")]) == 2
+    assert "one run alone to compare" in capsys.readouterr().err
+
+
 def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["report", str(SDNL32), "--method", "symplectic_euler", "--out", str(tmp_path)]
     assert main(arguments) == 0

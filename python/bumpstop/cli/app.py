@@ -239,15 +239,17 @@ def _sweep(parser: ArgumentParser) -> Callable[[Namespace], int]:
 
 
 def _report(parser: ArgumentParser) -> Callable[[Namespace], int]:
-    """Simulate a case and write its report alone."""
-    _takes_case(parser)
+    """Simulate a case and write its report alone, or compare several runs."""
+    told = "A case file, or responses (response.nc) and case files to compare."
+    parser.add_argument("runs", type=_path, nargs="+", metavar="RUN", help=told)
     _takes_method(parser)
-    _takes_folder(parser, Path(), "Write DIR/report.html; here if left out.")
+    told = "Write DIR/report.html, or DIR/compare.html, or the page of this name; here if left out."
+    parser.add_argument("-o", "--out", type=_path, metavar="DIR", default=Path(), help=told)
 
     def work(given: Namespace) -> int:
         from bumpstop.cli.report import report_command
 
-        return report_command(given.case, stepping=_stepping(given), out=given.out)
+        return report_command(given.runs, stepping=_stepping(given), out=given.out)
 
     return work
 

@@ -12,6 +12,7 @@ from bumpstop.io import FORMATS
 from bumpstop.io.case import Case
 
 if TYPE_CHECKING:
+    from bumpstop.response import Response
     from bumpstop.study.convergence import Convergence
 
 __all__ = [
@@ -20,6 +21,7 @@ __all__ = [
     "Exports",
     "older_outputs",
     "output_names",
+    "write_comparison_alone",
     "write_convergence",
     "write_modes_page",
     "write_outputs",
@@ -91,6 +93,20 @@ def write_report_alone(result: CaseResult, folder: Path) -> list[str]:
     """
     with all_or_nothing(folder) as staging:
         return _write_report(result, staging)
+
+
+def write_comparison_alone(runs: Mapping[str, Response], page: Path) -> None:
+    """Write a page that compares runs.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written; then the folder stays as it was.
+    """
+    from bumpstop.report.html import write_comparison
+
+    with all_or_nothing(page.parent) as staging:
+        write_comparison(runs, staging / page.name)
 
 
 def write_convergence(found: Convergence, folder: Path) -> None:

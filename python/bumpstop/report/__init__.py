@@ -12,10 +12,16 @@ from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
     from bumpstop.report.figures import as_plotly
-    from bumpstop.report.html import write_modes, write_report
+    from bumpstop.report.html import write_comparison, write_modes, write_report
 
-__all__ = ["as_plotly", "write_modes", "write_report"]
+__all__ = ["as_plotly", "write_comparison", "write_modes", "write_report"]
 
 __getattr__ = lazy_names(
-    __name__, {"as_plotly": "figures", "write_modes": "html", "write_report": "html"}
+    __name__,
+    {
+        "as_plotly": "figures",
+        "write_comparison": "html",
+        "write_modes": "html",
+        "write_report": "html",
+    },
 )

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from bumpstop.response import Response
     from bumpstop.study.convergence import Convergence
 
-__all__ = ["write_modes", "write_report"]
+__all__ = ["write_comparison", "write_modes", "write_report"]
 
 TEMPLATES = Path(__file__).parent / "templates"
 SCRIPTS = (
@@ -78,13 +78,39 @@ def write_report(
     content, data = page_content(case, responses, checks)
     if convergence is not None:
         add_convergence(convergence, content, data)
-    page = _page("report.html.j2", content, data)
+    _write_with_plots(_page("report.html.j2", content, data), path)
+    results = [result for variant in content["variants"] for result in variant["results"]]
+    return list(dict.fromkeys(each["missing"] for each in results if each["missing"]))
+
+
+def write_comparison(responses: Mapping[str, Response], path: str | os.PathLike[str]) -> None:
+    """Write a page that compares several runs to one HTML file.
+
+    Curves of what they have in common lie over each other; extremes, contacts and energies stand
+    side by side, each with its difference from the first run.
+
+    Parameters
+    ----------
+    responses
+        The runs by name, two or more; those read back from files, too.
+    path
+        File to write. A file of that name is replaced once the new one is complete.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two, or the file cannot be written there.
+    """
+    from bumpstop.report.comparison import comparison_content
+
+    _write_with_plots(_page("compare.html.j2", *comparison_content(responses)), path)
+
+
+def _write_with_plots(page: str, path: str | os.PathLike[str]) -> None:
     # plotly.js is most of the page: it is copied as bytes and never decoded.
     before, after = page.split(PLOTLY_MARK)
     with written_whole(path) as part, part.open("wb") as file:
         file.writelines([before.encode(), _plotly_script(), after.encode()])
-    results = [result for variant in content["variants"] for result in variant["results"]]
-    return list(dict.fromkeys(each["missing"] for each in results if each["missing"]))
 
 
 def write_modes(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from bumpstop.report.outline import Outline
     from bumpstop.response import Response
 
-__all__ = ["Variant", "watched_places"]
+__all__ = ["MOST_STOPS", "Variant", "caption", "untitled", "watched_places"]
 
 MOST_PLACES = 4
 MOST_STOPS = 8
@@ -70,7 +70,7 @@ class Variant:
 
     def content(self, checks: Sequence[Check]) -> dict[str, Any]:
         """Return what the template fills in."""
-        main_figure, *others = (_caption(name, figure) for name, figure in self.figures.items())
+        main_figure, *others = (caption(name, figure) for name, figure in self.figures.items())
         return {
             "id": self.identity,
             "motion": self._motion(),
@@ -84,7 +84,7 @@ class Variant:
 
     def plots(self) -> dict[str, Figure]:
         """Return the figures as the page draws them: their headings stand in the captions."""
-        return {name: _untitled(figure) for name, figure in self.figures.items()}
+        return {name: untitled(figure) for name, figure in self.figures.items()}
 
     def _drawn(self, references: Sequence[Reference]) -> Iterator[Figure]:
         """Yield the figures, the most important one first."""
@@ -153,7 +153,8 @@ def watched_places(problem: Problem, references: Sequence[Reference]) -> list[tu
     return list(dict.fromkeys(places))[:MOST_PLACES]
 
 
-def _caption(name: str, figure: Figure) -> dict[str, str]:
+def caption(name: str, figure: Figure) -> dict[str, str]:
+    """Return what the template puts above a figure, and how it is called."""
     layout = figure["layout"]
     # plotly's texts are HTML; the template escapes them again.
     across, up = (unescape(layout[axis]["title"]["text"]) for axis in ("xaxis", "yaxis"))
@@ -165,7 +166,8 @@ def _caption(name: str, figure: Figure) -> dict[str, str]:
     }
 
 
-def _untitled(figure: Figure) -> Figure:
+def untitled(figure: Figure) -> Figure:
+    """Return a figure without its heading, which stands in its caption."""
     layout = {key: value for key, value in figure["layout"].items() if key != "title"}
     top = 40 if layout.get("showlegend", True) else 12
     return {"data": figure["data"], "layout": layout | {"margin": layout["margin"] | {"t": top}}}
