@@ -199,3 +199,32 @@ class TestSamples:
         with pytest.raises(bs.InputError) as caught:
             bs.sampled_impacts(times, force)
         assert caught.value.key == key
+
+
+@pytest.mark.parametrize("shape", ["circle", "square"])
+def test_obstacles_in_two_directions(shape: str) -> None:
+    """Their states tell the side that is touched, too; the damper lets go before the gap opens."""
+    shapes = {("P", "dx"): [1.0, 0.0], ("P", "dy"): [0.0, 1.0]}
+    basis = bs.ModalBasis.from_modes(frequency=[5.0, 5.0], damping=0.02, shapes=shapes)
+    contact: dict[str, Any] = {"node": "P", "axis": (0, 0, 1), "stiffness": 1e4, "damping": 100.0}
+    corners = [(math.radians(45.0 + 90.0 * side), 3e-3) for side in range(4)]
+    hole = (
+        bs.CircleStop("hole", radius=2e-3, **contact)
+        if shape == "circle"
+        else bs.PolarStop("hole", profile=corners, **contact)
+    )
+    loads = [
+        bs.NodalForce("x", node="P", force=(30.0, 0, 0), time=bs.Harmonic(4.1, sine=1.0)),
+        bs.NodalForce("y", node="P", force=(0, 20.0, 0), time=bs.Harmonic(3.1, sine=1.0)),
+    ]
+    problem = bs.Problem(basis, laws=[hole], loads=loads, duration=1.0, sample=1e-5)
+    run = bs.simulate(problem, "dop853")
+    assert any(str(state).startswith("released") for state in run.events["after"])
+    force = run.sample("stop_force", "hole")
+    found = bs.contact_statistics(run, "hole", blocks=1)
+    assert found["contact_time"] == pytest.approx(float((force > 0.0).mean()), abs=2e-4)
+    assert found["mean_force"] == pytest.approx(force.mean(), rel=1e-4)
+    # At a jump of the damper's force the largest is between two samples.
+    assert found["largest_force"] == pytest.approx(force.max(), rel=1e-3)
+    assert found["largest_force"] >= force.max() * (1.0 - 1e-12)
+    assert found["contact_time"] < 0.999

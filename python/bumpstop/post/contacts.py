@@ -13,7 +13,7 @@ from bumpstop.errors import InputError
 from bumpstop.post.impacts import impacts_of
 from bumpstop.post.peaks import largest_forces
 from bumpstop.post.quadrature import integrals, kinks
-from bumpstop.post.spans import FREE, Spans, cut_spans, state_spans
+from bumpstop.post.spans import Spans, cut_spans, is_loaded, state_spans
 from bumpstop.quantities import COUNTED_IMPACTS
 
 if TYPE_CHECKING:
@@ -157,7 +157,7 @@ def loaded_spans(response: Response, stop: str, threshold: float) -> Spans:
         # Impacts on rigid stops take no time: their states tell of rests alone.
         if hasattr(response.problem.laws[law], "restitution"):
             return Spans(contacts["start"], ends)
-        return state_spans(response, law, lambda state: state not in FREE)
+        return state_spans(response, law, is_loaded)
     if np.isinf(contacts["peak_force"]).any():
         what = "means nothing for a rigid stop, whose impacts have no finite force"
         raise InputError(what, key="threshold", value=threshold)

@@ -13,10 +13,15 @@ from bumpstop.arguments import FloatArray
 if TYPE_CHECKING:
     from bumpstop.response import Response
 
-__all__ = ["FREE", "Spans", "cut_spans", "spans_within", "state_spans"]
+__all__ = ["FREE", "Spans", "cut_spans", "is_loaded", "spans_within", "state_spans"]
 
 FREE = ("open", "released")
 """States in which a stop makes no force; released, its damper holds back the spring's push."""
+
+
+def is_loaded(state: str) -> bool:
+    """Return whether a stop makes a force in a state; some tell their side after a comma."""
+    return state.partition(",")[0] not in FREE
 
 
 class Spans(NamedTuple):
