@@ -111,14 +111,13 @@ class Response:
 
     @property
     def motion_error(self) -> float | None:
-        """Bound in m of the error that rounding leaves in the motion within one phase.
+        """Bound in m of the error that rounding leaves in the motion between two switches.
 
         At every instant, where a law acts, the motion of the exact method is this close to
-        the solution of the equations of motion that starts where the last switch, or the last
-        knot of a load's table, left it. In long slides on stiff floors it may be far above the
-        error that is there. The bound comes from what the computed motion leaves of the equations
-        (see the theory page on the certificate), the same for any problem; None for methods
-        without such a bound.
+        the solution of the equations of motion that starts where the last switch left it;
+        without laws, this is the error of any modal coordinate. The bound comes from what the
+        computed motion leaves of the equations (see the theory page on the certificate), the same
+        for any problem; infinite where it says nothing, None for methods without such a bound.
         """
         return self.history.motion_error
 

@@ -133,9 +133,9 @@ impl<L: Law> History<L> {
         }
     }
 
-    /// A bound, in the laws' local coordinates, of how far the exact method's motion of any phase
-    /// is from the solution of its equations that starts where the phase before ends. `None` for
-    /// methods with steps.
+    /// A bound, in the laws' local coordinates, of how far the exact method's motion is from the
+    /// solution of its equations that starts where the last switch left it; without laws, in
+    /// modal coordinates. `None` for methods with steps.
     pub fn motion_error(&self) -> Option<f64> {
         match &self.record {
             Record::Steps(_) | Record::Polynomials(_) => None,

@@ -73,8 +73,8 @@ impl PhaseRecord {
         self.certificate.missed
     }
 
-    /// Bound of how far the motion of any phase is, at the laws, from the solution of its
-    /// equations: see [`defect`]. Infinite where there is no bound.
+    /// Bound of how far the motion is, at the laws, from the solution of its equations that
+    /// starts at the last switch: see [`defect`]. Infinite where there is no bound.
     pub(crate) fn motion_error<L: Law>(&self, problem: &Problem<L>) -> f64 {
         let largest = || Defect::new(self, problem).largest();
         *(self.motion_error).get_or_init(|| largest().unwrap_or(f64::INFINITY))

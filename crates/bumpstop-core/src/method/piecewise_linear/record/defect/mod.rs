@@ -4,11 +4,13 @@
 //! small force too much, the residual, and starts a little beside the end of the phase before.
 //! Both are known numbers. In the energy norm `e^2 = |y'|^2 + y' S y`, with S the symmetric part
 //! of the stiffness (moved up where that is not positive), what they do until time t is at most
-//! `exp(eta t) (jump + int |residual|)`: `docs/theory/certificate.md` has the proof.
+//! `exp(eta t) (jump + int |residual|)`; where friction slides, the eigenvectors of the motion give
+//! a smaller factor. `docs/theory/certificate.md` has the proofs.
 
 mod equations;
 mod norm;
 mod residual;
+mod state_matrix;
 
 use super::PhaseRecord;
 use super::projection::COORDINATE;
@@ -19,14 +21,16 @@ use crate::method::piecewise_linear::polynomial::of_derivative;
 use crate::method::piecewise_linear::signal::Signal;
 use crate::number::{LANES, Plain};
 use crate::problem::Problem;
+use crate::rigid::Blow;
 use equations::Equations;
-use norm::{EnergyNorm, size};
+use norm::{ErrorNorm, size};
 use residual::{Sum, rounding};
+use std::ops::Range;
 
 /// Bounds are themselves computed in floating point, from positive terms: this covers it.
 const BOUNDS_ROUNDING: f64 = 1.0 + 1e-9;
 
-/// Bounds the error of the motion phase by phase.
+/// Bounds the error of the motion from switch to switch.
 pub(super) struct Defect<'a, L> {
     record: &'a PhaseRecord,
     problem: &'a Problem<L>,
@@ -42,47 +46,99 @@ impl<'a, L: Law> Defect<'a, L> {
         }
     }
 
-    /// The largest bound of any phase at any law, in that law's coordinate.
+    /// The largest bound of any stretch between two switches, at any law in that law's coordinate;
+    /// without laws, at any modal coordinate.
     pub(super) fn largest(&mut self) -> Result<f64> {
         let phases = &self.record.phases;
         let mut equations: Vec<Option<Equations>> = Vec::new();
         equations.resize_with(phases.spectra.len(), || None);
+        let rows = self.rows();
         let mut largest = 0.0f64;
-        for (number, phase) in phases.list.iter().enumerate() {
+        let mut first = 0;
+        while first < phases.list.len() {
+            let phase = phases.list[first];
             let which = &mut equations[phase.spectrum];
             let equations = match which {
                 Some(known) => known,
-                None => which.insert(Equations::new(self.problem, phases, *phase)?),
+                None => which.insert(Equations::new(self.problem, phases, phase)?),
             };
-            largest = largest.max(self.of_phase(equations, number));
+            let stretch = first..self.next_switch(first);
+            first = stretch.end;
+            largest = largest.max(self.of_stretch(equations, stretch, &rows));
         }
         Ok(largest)
     }
 
-    fn of_phase(&mut self, equations: &Equations, number: usize) -> f64 {
-        let phases = &self.record.phases;
-        let phase = phases.list[number];
-        let next = phases.list.get(number + 1);
-        let length = next.map_or(self.record.duration, |p| p.start) - phase.start;
-        if length == 0.0 {
-            return 0.0;
+    /// The rows at which errors are looked at.
+    fn rows(&self) -> Vec<Vec<f64>> {
+        let laws = &self.problem.laws;
+        if laws.is_empty() {
+            let modes = self.problem.system.modes();
+            let unit = |mode| (0..modes).map(|i| f64::from(u8::from(i == mode))).collect();
+            return (0..modes).map(unit).collect();
         }
-        let norm = EnergyNorm::new(equations, length);
-        let pushed = equations.exponential_residual(self.record, phase, length)
-            + self.polynomial_residual(equations, phase, length);
-        let [position, velocity] = self.jump(number);
-        // What is held stays beside its place, and pushes the rest through the stiffness.
-        let beside = if equations.holds() {
-            size(&position)
-        } else {
-            0.0
+        laws.iter().flat_map(Law::rows).cloned().collect()
+    }
+
+    /// The phase with which the next law switches or is hit. Knots of loads part phases too, and
+    /// errors go on over these.
+    fn next_switch(&self, first: usize) -> usize {
+        let phases = &self.record.phases;
+        let goes_on = |number: usize| {
+            let [before, phase] = [phases.list[number - 1], phases.list[number]];
+            phase.spectrum == before.spectrum
+                && phases.states(phase) == phases.states(before)
+                && self.blows(number).is_empty()
         };
-        let pushed = pushed + equations.coupled.stiffness.norm_l2() * beside * length;
-        let jump = norm.of_state(&position, &velocity);
-        let error = (norm.growth * length).exp() * (jump + pushed);
-        let laws = self.problem.laws.iter().flat_map(Law::rows);
-        let at_row = |row: &Vec<f64>| error * norm.reach(row) + size(row) * beside;
-        BOUNDS_ROUNDING * laws.fold(0.0f64, |most, row| most.max(at_row(row)))
+        let later = first + 1..phases.list.len();
+        later.clone().find(|&n| !goes_on(n)).unwrap_or(later.end)
+    }
+
+    /// Impulses with which a phase begins.
+    fn blows(&self, number: usize) -> &'a [Blow] {
+        let blows = &self.record.blows;
+        let from = blows.partition_point(|blow| blow.phase < number);
+        let until = blows.partition_point(|blow| blow.phase <= number);
+        &blows[from..until]
+    }
+
+    /// When a phase ends.
+    fn end(&self, number: usize) -> f64 {
+        let next = self.record.phases.list.get(number + 1);
+        next.map_or(self.record.duration, |phase| phase.start)
+    }
+
+    fn of_stretch(
+        &mut self,
+        equations: &Equations,
+        stretch: Range<usize>,
+        rows: &[Vec<f64>],
+    ) -> f64 {
+        let list = &self.record.phases.list;
+        let whole = self.end(stretch.end - 1) - list[stretch.start].start;
+        if whole == 0.0 {
+            let [position, _] = self.jump(stretch.start);
+            return rows
+                .iter()
+                .fold(0.0f64, |most, row| most.max(size(row) * size(&position)));
+        }
+        let norm = ErrorNorm::new(equations, whole);
+        let (mut error, mut beside) = (0.0, 0.0);
+        for number in stretch {
+            let phase = list[number];
+            let length = self.end(number) - phase.start;
+            let [position, velocity] = self.jump(number);
+            error += norm.of_state(&position, &velocity);
+            // What is held stays beside its place, and pushes the rest through the stiffness.
+            if equations.holds() {
+                beside += size(&position);
+            }
+            error += equations.coupled.stiffness.norm_l2() * beside * length
+                + equations.exponential_residual(self.record, phase, length)
+                + self.polynomial_residual(equations, phase, length);
+        }
+        let at_row = |row: &Vec<f64>| norm.rise * error * norm.reach(row) + size(row) * beside;
+        BOUNDS_ROUNDING * rows.iter().fold(0.0f64, |most, row| most.max(at_row(row)))
     }
 
     /// Bound of the integral of the polynomial part's residual over a phase.
@@ -174,8 +230,8 @@ impl<'a, L: Law> Defect<'a, L> {
             }
             None => (problem.displacement.clone(), problem.velocity.clone()),
         };
-        for blow in self.record.blows.iter().filter(|b| b.phase == number) {
-            let row = &problem.laws[blow.law].rows()[0];
+        for blow in self.blows(number) {
+            let row = &self.problem.laws[blow.law].rows()[0];
             for (v, factor) in v.iter_mut().zip(row) {
                 *v += factor * blow.impulse;
             }
