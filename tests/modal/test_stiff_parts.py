@@ -1,5 +1,8 @@
 """Modes beside parts that are very stiff and have next to no mass."""
 
+from dataclasses import replace
+
+import mpmath
 import numpy as np
 import pytest
 
@@ -77,3 +80,58 @@ def test_light_stiff_posts_are_springs(density: float) -> None:
     np.testing.assert_allclose(found.frequencies, expected.frequencies, rtol=1e-10)
     middle, expected_middle = found.row("M", "dy"), expected.row("M", "dy")
     np.testing.assert_allclose(middle, expected_middle, rtol=1e-8, atol=1e-12)
+
+
+def on_two_posts(modulus: float, elements: int) -> bs.Structure:
+    """The beam on one post under each of its ends, nearly without mass."""
+    post = bs.Material(young_modulus=modulus, poisson_ratio=0.3, density=1e-6)
+    nodes = {"L": (0.0, 0.0, 0.0), "R": (1.0, 0.0, 0.0), "A": (0, -POST, 0), "B": (1, -POST, 0)}
+    posts = [
+        bs.Beam(
+            side,
+            nodes=(low, side),
+            elements=1,
+            theory="euler_bernoulli",
+            material=post,
+            section=TUBE,
+        )
+        for low, side in (("A", "L"), ("B", "R"))
+    ]
+    return bs.Structure(
+        nodes=nodes,
+        beams=[replace(beam("L", "R"), elements=elements), *posts],
+        supports=[IN_PLANE, bs.Support(nodes=("A", "B"), fixed=("dy", "drz"))],
+    )
+
+
+def exact_frequencies(model: bs.Structure) -> np.ndarray:
+    """All of them, with sixty digits."""
+    with mpmath.workdps(60):
+        stiffness, mass = (
+            mpmath.matrix(model.reduced(matrix).to_dense().tolist())
+            for matrix in (model.stiffness, model.mass)
+        )
+        inverse = mpmath.cholesky(mass) ** -1
+        omega2 = mpmath.eigsy(inverse * stiffness * inverse.T, eigvals_only=True)
+        return np.array([float(mpmath.sqrt(each) / (2 * mpmath.pi)) for each in omega2])
+
+
+@pytest.mark.parametrize("modulus", [1e12, 1e15, 1e19, 1e22])
+def test_all_modes_beside_stiff_posts(modulus: float) -> None:
+    model = on_two_posts(modulus, elements=4)
+    found = bs.ModalBasis.from_structure(model, modes="all")
+    np.testing.assert_allclose(found.frequencies, exact_frequencies(model), rtol=1e-11)
+    assert found.sturm is not None
+    assert found.sturm.count == len(model.free)
+
+
+def test_all_modes_of_many_dofs_beside_stiff_posts() -> None:
+    """What is found must not depend on how much is asked for, and must be modes."""
+    model = on_two_posts(1e22, elements=100)
+    found = bs.ModalBasis.from_structure(model, modes="all")
+    lowest = bs.ModalBasis.from_structure(model, modes=16)
+    np.testing.assert_allclose(found.frequencies[:16], lowest.frequencies, rtol=1e-9)
+    shapes = found.shapes
+    unit = shapes.T @ (model.mass @ shapes)
+    np.testing.assert_allclose(unit, np.eye(len(unit)), atol=1e-6)
+    assert found.sturm is not None
