@@ -1,11 +1,13 @@
 """A run that goes on where another one ended, against an unbroken one."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import bumpstop as bs
+from bumpstop.loads.time import TimeFunction
 
 BASIS = bs.ModalBasis.from_modes(
     frequency=[3.0, 7.5], damping=[0.01, 0.02], shapes={("P", "dx"): [1.0, 0.4]}
@@ -59,6 +61,27 @@ def test_pieces_of_pieces() -> None:
     expected = unbroken.sample("displacement", "P", "dx", times=[2.75])
     found = run.sample("displacement", "P", "dx", times=[0.25])
     np.testing.assert_allclose(found, expected, atol=1e-10)
+
+
+@pytest.mark.parametrize(
+    "shaking",
+    [
+        bs.Expression("exp(-t) * sin(9*t)"),
+        bs.Product([bs.Harmonic(3.0, sine=1.0), bs.TimeTable([0, 1, 2], [0, 1, 0], beyond="zero")]),
+    ],
+)
+def test_within_the_first_run_lines_are_those_of_the_first(shaking: TimeFunction) -> None:
+    problem = replace(
+        whole(2.0), loads=[bs.NodalForce("s", node="P", force=(30, 0, 0), time=shaking)]
+    )
+    run = bs.simulate(problem)
+    rest = bs.simulate(bs.continued(run, at=0.77, duration=1.0))
+    again = bs.simulate(bs.continued(rest, at=0.25, duration=0.5))
+    times = np.linspace(0.0, 0.5, 101)
+    expected = run.motion(0, 1.02 + times)
+    largest = np.abs(expected).max()
+    np.testing.assert_allclose(rest.motion(0, 0.25 + times), expected, atol=1e-12 * largest)
+    np.testing.assert_allclose(again.motion(0, times), expected, atol=1e-12 * largest)
 
 
 def test_a_contact_that_rubs_is_told() -> None:

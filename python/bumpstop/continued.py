@@ -37,7 +37,8 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
 
     The instant is the new problem's t = 0. Its motion is that of an unbroken run but for the
     rounding of displacement, velocity and shifted times, which impacts make grow like any other
-    small difference; it is not the same to the bit.
+    small difference; it is not the same to the bit. Beyond the end of the response, straight
+    lines through functions that need such are drawn anew, within the same tolerance.
 
     Parameters
     ----------
@@ -76,8 +77,8 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
     place, speed = (problem.basis.amplitudes(each) for each in motion)
     return replace(
         problem,
-        loads=[_later(load, instant) for load in problem.loads],
-        laws=[_moved_on(law, instant) for law in problem.laws],
+        loads=[_later(load, instant, problem.duration) for load in problem.loads],
+        laws=[_moved_on(law, instant, problem.duration) for law in problem.laws],
         initial=_InMotion(displacement=place, velocity=speed),
         duration=positive("duration", duration),
         sample=None,
@@ -110,20 +111,21 @@ def _refuse_memory(response: Response, law: Law, instant: float) -> None:
         raise InputError(what, key=f"{law.table}.{law.name}", value=state, hint=hint)
 
 
-def _moved_on(law: Law, instant: float) -> Law:
+def _moved_on(law: Law, instant: float, drawn: float) -> Law:
     """Return a law whose obstacle goes on from an instant."""
     if not getattr(law, "functions", ()):
         return law
     stop: Any = law
-    later: Law = replace(stop, motion=[Shifted(each, instant) for each in stop.functions])
+    motion = [Shifted(each, instant, drawn) for each in stop.functions]
+    later: Law = replace(stop, motion=motion)
     return later
 
 
-def _later(load: Load, instant: float) -> Load:
+def _later(load: Load, instant: float, drawn: float) -> Load:
     if getattr(load, "is_absolute", False):
         what = "cannot go on: results are told from the ground"
         raise InputError(what, key=f"loads.{load.name}", hint='take the frame "relative"')
-    return LaterLoad(load, instant)
+    return LaterLoad(load, instant, drawn)
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,10 +138,13 @@ class LaterLoad:
         The load.
     instant
         What is its t = 0, in s.
+    drawn
+        How long the run was whose straight lines it goes on with, in s.
     """
 
     load: Load
     instant: float
+    drawn: float
 
     @property
     def name(self) -> str:
@@ -155,7 +160,9 @@ class LaterLoad:
     def components(self, basis: ModalBasis) -> Sequence[ForceComponent]:
         """Return the forces on each mode, each with its functions of time."""
         return [
-            ForceComponent(force, tuple(Shifted(each, self.instant) for each in functions))
+            ForceComponent(
+                force, tuple(Shifted(each, self.instant, self.drawn) for each in functions)
+            )
             for force, functions in self.load.components(basis)
         ]
 

@@ -196,7 +196,18 @@ def test_a_load_may_sweep_and_follow_formulas_and_products(tmp_path: Path) -> No
     ("text", "message"),
     [
         ('expression = "sin(x)"', r"loads\.push\.expression: unknown name .*'x'"),
-        ('expression = "1/t"', r"loads\.push\.table: has no finite value"),
+        ('expression = "1/t"', r"loads\.push\.expression: has no finite value"),
+        ('expression = "exp(1e5*t)"', r"loads\.push\.expression: has no finite value"),
+        ('expression = "1/(t - 0.1234)"', r"loads\.push\.expression: grows without limit"),
+        (
+            'expression = "sin(1e9*t)"\nline_tolerance = 1e-6',
+            r"loads\.push\.line_tolerance: needs more than 2,000,000",
+        ),
+        (
+            'product = [{ expression = "1/t" }, { expression = "t" }]',
+            r"loads\.push\.product: has no finite value",
+        ),
+        ("product = []", r"loads\.push\.product: must be two functions"),
         ("product = [{ polynomial = [1] }]", r"loads\.push\.product: must be two functions"),
         ("product = [{}, {}]", r"loads\.push\.product\.0: has no function of time"),
         (

@@ -76,9 +76,43 @@ def test_what_is_no_formula_is_refused_in_one_line(formula: str, what: str) -> N
 def test_values_are_finite(formula: str, where: str) -> None:
     basis = bs.ModalBasis.from_modes(frequency=[3.0], shapes={("P", "dx"): [1.0]})
     push = bs.NodalForce("push", node="P", force=(1, 0, 0), time=bs.Expression(formula))
-    with pytest.raises(bs.InputError, match=r"loads\.push\.time: has no finite value") as caught:
+    with pytest.raises(
+        bs.InputError, match=r"loads\.push\.time\.formula: has no finite value"
+    ) as caught:
         bs.Problem(basis, loads=[push], duration=2.0)
     assert str(caught.value.value).startswith(where)
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        "1/(t - 0.0333333)",
+        "1/(t - 0.0333333)**2",
+        "3 + 1e-3/(t - 0.7)",
+        "tan(47*t)",
+        "1/sqrt(abs(t - 1/3))",
+        "step(t - 0.2) / (t - 0.2)",
+        "1/(t - 1)",
+    ],
+)
+def test_poles_are_refused(formula: str) -> None:
+    with pytest.raises(bs.InputError, match=r"time\.formula: (grows without limit|has no finite)"):
+        bs.Expression(formula).terms(1.0)
+
+
+@pytest.mark.parametrize(
+    ("formula", "largest"),
+    [
+        ("1/(1e-8 + (t - 0.3)**2)", 1e8),
+        ("abs(t - 1/3) / (t - 1/3)", 1.0),
+        ("1e6 * step(t - 1/3) * exp(-t)", 1e6 * np.exp(-1 / 3)),
+        ("sqrt(abs(t - 1/3))", np.sqrt(2 / 3)),
+        ("atan(1e13 * (t - 1/3))", np.pi / 2),
+    ],
+)
+def test_peaks_and_jumps_are_no_poles(formula: str, largest: float) -> None:
+    (table,) = bs.Expression(formula).terms(1.0)
+    assert np.abs(table.values).max() == pytest.approx(largest, rel=1e-4)
 
 
 def test_what_is_too_quick_is_refused() -> None:

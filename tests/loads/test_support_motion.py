@@ -111,6 +111,21 @@ def test_equal_motions_of_all_supports_are_a_base_motion() -> None:
     assert found[0].history.event_count == found[1].history.event_count > 0
 
 
+def test_motions_of_one_support_add_up() -> None:
+    basis = bs.ModalBasis.from_structure(beam(), modes=4, damping=0.01)
+    wave, other = bs.Harmonic(FREQUENCY, sine=1.0), bs.Harmonic(9.0, cosine=1.0)
+    parts = [
+        bs.SupportMotion("one", nodes="A", displacement=(0, 2e-3, 0), time=wave),
+        bs.SupportMotion("two", nodes=["A", "B"], displacement=(0, -1e-3, 0), time=other),
+    ]
+    runs = [bs.Problem(basis, loads=loads, duration=0.2) for loads in (parts, *zip(parts))]
+    both, *each = (bs.simulate(run) for run in runs)
+    for node in ("A", "AB.1"):
+        found = both.sample("displacement", node, "dy")
+        expected = sum(run.sample("displacement", node, "dy") for run in each)
+        np.testing.assert_allclose(found, expected, atol=1e-12 * np.abs(found).max())
+
+
 def chain() -> bs.Structure:
     """A mass between two supports and one beyond, with dampers, along x."""
     return bs.Structure(

@@ -55,6 +55,11 @@ def test_mistakes_are_one_line(make: Any, key: str, what: str) -> None:
     assert "\n" not in str(caught.value)
 
 
+def test_a_table_out_of_order_tells_the_number_as_it_is_written() -> None:
+    with pytest.raises(bs.InputError, match=r"got 1\.0\)"):
+        bs.TimeTable(np.array([0.0, 2.0, 1.0]), np.zeros(3))
+
+
 def test_a_table_covers_the_run_or_says_what_is_beyond() -> None:
     short = bs.TimeTable([0.0, 1.0], [0.0, 1.0])
     check_span([short, bs.Harmonic(1.0)], 1.0)

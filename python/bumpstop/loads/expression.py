@@ -101,7 +101,7 @@ class Expression:
             If it has no finite value somewhere, or takes more than two million lines.
         """
         grid = np.linspace(0.0, duration, _INTERVALS + 1)
-        return (sampled(self.at, grid, self.tolerance),)
+        return (sampled(self.at, grid, self.tolerance, "time.formula"),)
 
     @property
     def words(self) -> str:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray
-from bumpstop.errors import InputError
+from bumpstop.errors import InputError, blamed
 from bumpstop.loads.sampling import TOLERANCE, checked_tolerance, sampled
 from bumpstop.loads.time import (
     HIGHEST_DEGREE,
@@ -93,14 +93,16 @@ class Product:
         InputError
             If it takes more than two million lines.
         """
-        factors = [resolved(factor, duration) for factor in self.sums]
+        with blamed("time.factors"):
+            factors = [resolved(factor, duration) for factor in self.sums]
         exact: tuple[Term, ...] | None = factors[0]
         for factor in factors[1:]:
             exact = _multiplied(exact, factor)
         if exact is not None:
             return exact
         grid = _grid(factors, duration)
-        return (sampled(lambda times: _at(factors, times), grid, self.tolerance),)
+        product = partial(_at, factors)
+        return (sampled(product, grid, self.tolerance, "time.factors"),)
 
 
 def _at(factors: Sequence[Sequence[TimeFunction]], times: FloatArray) -> FloatArray:

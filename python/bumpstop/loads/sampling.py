@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray, positive
-from bumpstop.errors import InputError
+from bumpstop.errors import InputError, blamed
 from bumpstop.loads.time import TimeTable
 
 __all__ = ["MOST_KNOTS", "TOLERANCE", "checked_tolerance", "sampled", "too_many"]
@@ -24,6 +25,10 @@ _JUMP = 1e-9
 """A change within this part of the whole is a jump."""
 _SAME = 1e-12
 """Values on both sides of a knot this close, relative to the largest, are the same."""
+_GROWTH = 100.0
+"""What is so much larger inside a jump than beside it grows without limit."""
+_CLOSING = 40
+"""Halvings from a jump's width to neighbouring numbers."""
 
 
 def checked_tolerance(value: object) -> float:
@@ -35,7 +40,10 @@ def checked_tolerance(value: object) -> float:
 
 
 def sampled(
-    function: Callable[[FloatArray], FloatArray], grid: FloatArray, tolerance: float
+    function: Callable[[FloatArray], FloatArray],
+    grid: FloatArray,
+    tolerance: float,
+    key: str = "time",
 ) -> TimeTable:
     """Return a table whose lines stay as close to a function as a tolerance says.
 
@@ -52,11 +60,13 @@ def sampled(
         known among them.
     tolerance
         Largest deviation, relative to the largest value.
+    key
+        Argument of a load that is blamed for a function without finite values.
 
     Raises
     ------
     InputError
-        If it takes more than two million lines, or a value is not finite.
+        If it takes more than two million lines, a value is not finite, or it grows without limit.
 
     Examples
     --------
@@ -66,17 +76,20 @@ def sampled(
     True
     """
     begin, end = grid[:-1], grid[1:]
-    first, last = _values(function, begin), _values(function, np.nextafter(end, -np.inf))
+    finite = partial(_finite, function, key)
+    first, last = finite(begin), finite(np.nextafter(end, -np.inf))
     largest = max(np.abs(first).max(), np.abs(last).max())
     width = _JUMP * (grid[-1] - grid[0])
     done: list[FloatArray] = []
     while len(begin):
         inside = begin[:, np.newaxis] + (end - begin)[:, np.newaxis] * _INSIDE
-        values = _values(function, inside)
+        values = finite(inside)
         largest = max(largest, np.abs(values).max())
         lines = first[:, np.newaxis] + (last - first)[:, np.newaxis] * _INSIDE
         far = np.abs(values - lines).max(axis=1) > _SEEN * tolerance * largest
         jumps = far & (end - begin < width)
+        with blamed(key):
+            _refuse_poles(function, begin[jumps], end[jumps], grid)
         last = np.where(jumps, first, last)
         split = far & ~jumps
         done.append(np.stack([begin, end, first, last], axis=1)[~split])
@@ -94,7 +107,7 @@ def too_many(tolerance: float) -> InputError:
     """Return the error that says that a function needs too many lines."""
     return InputError(
         f"needs more than {MOST_KNOTS:,} straight lines",
-        key="tolerance",
+        key="time.tolerance",
         value=tolerance,
         hint="take a larger one, or a shorter run",
     )
@@ -110,10 +123,50 @@ def _table(lines: FloatArray, largest: float) -> TimeTable:
     return TimeTable(times[keep], values[keep], beyond="hold")
 
 
-def _values(function: Callable[[FloatArray], FloatArray], times: FloatArray) -> FloatArray:
+def _refuse_poles(
+    function: Callable[[FloatArray], FloatArray],
+    begin: FloatArray,
+    end: FloatArray,
+    grid: FloatArray,
+) -> None:
+    """Raise where a function grows without limit in intervals that look like jumps.
+
+    They close in on the largest value: beside a jump it stays as large as it was outside.
+    """
+    if len(begin) == 0:
+        return
+    width = end - begin
+    beside = np.stack([begin - width, end + width])
+    inside_run = (grid[0] <= beside) & (beside <= grid[-1])
+    outside = np.where(inside_run, _sizes(function, np.clip(beside, grid[0], grid[-1])), 0.0)
+    left, right, largest = begin, end, np.zeros(len(begin))
+    for _ in range(_CLOSING):
+        places = np.linspace(left, np.nextafter(right, -np.inf), 5)
+        sizes = _sizes(function, places)
+        largest = np.maximum(largest, sizes.max(axis=0))
+        at = np.clip(sizes.argmax(axis=0), 1, 3)
+        left, right = (np.choose(at + side, places) for side in (-1, 1))
+    poles = largest > _GROWTH * outside.max(axis=0)
+    if poles.any():
+        where, hint = f"t = {left[poles][0]:.9g} s", "a load must be finite at every instant"
+        raise InputError("grows without limit", value=where, hint=hint)
+
+
+def _sizes(function: Callable[[FloatArray], FloatArray], times: FloatArray) -> FloatArray:
+    """Return magnitudes; zero where there is none, as at the instant of a jump |x| / x."""
+    return np.nan_to_num(np.abs(_raw(function, times)), nan=0.0, posinf=np.inf)
+
+
+def _raw(function: Callable[[FloatArray], FloatArray], times: FloatArray) -> FloatArray:
     with np.errstate(all="ignore"):
-        values = np.broadcast_to(function(times), times.shape).astype(np.float64)
+        return np.broadcast_to(function(times), times.shape).astype(np.float64)
+
+
+def _finite(
+    function: Callable[[FloatArray], FloatArray], key: str, times: FloatArray
+) -> FloatArray:
+    values = _raw(function, times)
     wrong = ~np.isfinite(values)
     if wrong.any():
-        raise InputError("has no finite value", key="time", value=f"t = {times[wrong][0]:.9g} s")
+        raise InputError("has no finite value", key=key, value=f"t = {times[wrong][0]:.9g} s")
     return values

@@ -23,6 +23,9 @@ class Shifted:
         A function of time.
     instant
         In s, zero or later.
+    drawn
+        For how long the function is known already by straight lines where it needs such, in s
+        from its own start: a run no longer than that follows the same ones.
 
     Examples
     --------
@@ -32,6 +35,7 @@ class Shifted:
 
     function: TimeFunction
     instant: float
+    drawn: float = 0.0
 
     @property
     def words(self) -> str:
@@ -44,9 +48,8 @@ class Shifted:
 
     def terms(self, duration: float) -> tuple[Term, ...]:
         """Return the terms whose sum it is over a run."""
-        return tuple(
-            _later(term, self.instant) for term in self.function.terms(self.instant + duration)
-        )
+        whole = max(self.instant + duration, self.drawn)
+        return tuple(_later(term, self.instant) for term in self.function.terms(whole))
 
 
 def _later(term: Term, instant: float) -> Term:

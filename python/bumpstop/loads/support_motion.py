@@ -28,6 +28,8 @@ __all__ = ["SupportMotion"]
 class SupportMotion(MovingSupports):
     """A translation of some supports; every group that moves differently is a load of its own.
 
+    A support that several of them name moves by their sum.
+
     The structure follows slowly moving supports by a pseudo-static mode ``psi``: the displacement
     where they move by one, the other supports stay and no load acts. What its inertia adds is
     told by the modes, which feel

@@ -197,7 +197,8 @@ class TimeTable(_Term):
         if len(backwards):
             at = int(backwards[0]) + 1
             hint = f"entry {at + 1} is earlier than the one before it"
-            raise InputError("must not go backwards", key="times", value=self.times[at], hint=hint)
+            earlier = float(self.times[at])
+            raise InputError("must not go backwards", key="times", value=earlier, hint=hint)
         if self.beyond is not None:
             one_of("beyond", self.beyond, BEYOND)
 

@@ -31,6 +31,14 @@ STRUCTURE = (*SOURCES, *keys_of(StructureTables), "components", "joints", "basis
 _IN_TIME = ("stops", "laws", "loads", "base_motion", "initial", "gauges", "outputs", "results")
 """Tables that mean nothing where nothing is simulated."""
 
+_OF_TIME = {
+    "time": "table",
+    "time.formula": "expression",
+    "time.factors": "product",
+    "time.tolerance": "line_tolerance",
+}
+"""What a load's functions of time and their arguments are called in the file."""
+
 
 class Builder:
     """Builds the problems of one case; variants of the same structure share its modes.
@@ -123,15 +131,19 @@ def _same_basis(one: CaseFile, other: CaseFile) -> bool:
     return same and load_tables(one) == load_tables(other)
 
 
+def _functions(load: str, table: str) -> dict[str, str]:
+    """Return what the functions of time of a load, and their arguments, are called in its table."""
+    return {f"{load}.{argument}": f"{table}.{key}" for argument, key in _OF_TIME.items()}
+
+
 def _renamed(case: CaseFile) -> dict[str, str]:
     """Return where in the file the arguments of a problem stand."""
-    tables = {f"loads.{name}.time": f"loads.{name}.table" for name in case.loads}
-    base_motion = {
-        f"loads.{BASE_MOTION}": BASE_MOTION,
-        f"loads.{BASE_MOTION}.time": f"{BASE_MOTION}.table",
-    }
+    tables: dict[str, str] = {}
+    for name in case.loads:
+        tables |= _functions(f"loads.{name}", f"loads.{name}")
     if case.base_motion is not None:
-        tables |= base_motion
+        place = f"loads.{BASE_MOTION}"
+        tables |= {place: BASE_MOTION} | _functions(place, BASE_MOTION)
     return tables | {
         "duration": "run.duration",
         "sample": "run.sample",

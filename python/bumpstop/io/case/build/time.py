@@ -26,7 +26,7 @@ def built_time(table: TimeKeys, folder: Path) -> list[TimeFunction] | None:
     """Return the functions whose sum the table means; None for a constant."""
     tolerance = table.line_tolerance
     functions = _sum(table, folder, tolerance)
-    if table.product:
+    if table.product is not None:
         factors = []
         for number, factor in enumerate(table.product):
             with keyed(f"product.{number}"):

@@ -112,8 +112,8 @@ class FactorTable(Table):
 class TimeKeys(FactorTable):
     """What a load is multiplied by: the sum of all that is given, or one."""
 
-    product: list[FactorTable] = Field(
-        default=[], description="Functions of time whose product is added to the sum"
+    product: list[FactorTable] | None = Field(
+        default=None, description="Functions of time whose product is added to the sum"
     )
     line_tolerance: PositiveNumber = Field(
         default=1e-4,
