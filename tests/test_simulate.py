@@ -92,6 +92,12 @@ def test_fixed_steps_approach_the_exact_solution(method: str) -> None:
             "spectral_radius",
             "must be from 0 to 1",
         ),
+        (
+            {"method": "newmark", "dt": 1e-3, "beyond_stability_limit": "no"},
+            "beyond_stability_limit",
+            "must be True or False",
+        ),
+        ({"progress": 3}, "progress", "must be a function"),
     ],
 )
 def test_refuses(options: dict[str, Any], key: str, what: str) -> None:

@@ -71,6 +71,13 @@ def not_negative(key: str, value: object) -> float:
     return number
 
 
+def boolean(key: str, value: object) -> bool:
+    """Return true or false."""
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    raise InputError("must be True or False", key=key, value=value)
+
+
 def count(key: str, value: object, least: int = 1, most: int | None = None) -> int:
     """Return a whole number from ``least`` to ``most``."""
     if isinstance(value, bool) or not isinstance(value, Integral):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bumpstop import _core
-from bumpstop.arguments import finite, not_negative, one_of, positive
+from bumpstop.arguments import boolean, finite, not_negative, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.methods import (
@@ -140,6 +140,10 @@ def simulate(
         hint = "of a case, take one of its problems"
         raise InputError("must be a Problem", key="problem", value=problem, hint=hint)
     one_of("method", method, METHODS)
+    beyond_stability_limit = boolean("beyond_stability_limit", beyond_stability_limit)
+    if progress is not None and not callable(progress):
+        what, hint = "must be a function", "it is told the part that is done, from 0 to 1"
+        raise InputError(what, key="progress", value=progress, hint=hint)
     chosen, reason = _choose(method, problem)
     if chosen == "exact" and method == "auto":
         rtol = atol = None
