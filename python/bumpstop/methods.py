@@ -42,6 +42,7 @@ PARAMETERS: dict[str, dict[str, Range]] = {
     "trbdf2": {},
     "devogelaere": {},
     "exponential": {},
+    "moreau_jean": {"theta": Range(0.5, 1.0)},
 }
 """Classical schemes of one step, with the parameters of each."""
 ONE_STEP_METHODS = tuple(PARAMETERS)
@@ -60,6 +61,8 @@ RTOL = 1e-8
 """Relative tolerance of the adaptive methods where none is given."""
 FULL_METHODS = ("newmark", "hht", "generalized_alpha", "central_difference")
 """Methods that take a full model, which is not reduced to modes."""
+RIGID_METHODS = ("exact", "moreau_jean")
+"""Methods that take rigid stops, at which velocities jump."""
 MODE_BY_MODE = (*EXPLICIT_METHODS, "devogelaere", "exponential")
 """Methods that carry each mode by itself."""
 
@@ -137,14 +140,14 @@ def _refuse_coupled_modes(method: str, problem: Problem) -> None:
 
 def _refuse_rigid_stops(method: str, problem: Problem) -> None:
     """Raise for a scheme that goes by forces where speeds jump."""
-    if method != "exact":
+    if method not in RIGID_METHODS:
         for law in problem.laws:
             if hasattr(law, "restitution"):
                 raise InputError(
                     f"does not take rigid stops such as {law.name!r}",
                     key="method",
                     value=method,
-                    hint="the exact method does",
+                    hint=f"{' and '.join(RIGID_METHODS)} do",
                 )
 
 

@@ -63,6 +63,7 @@ def simulate(
     gamma: float | None = None,
     alpha: float | None = None,
     spectral_radius: float | None = None,
+    theta: float | None = None,
     rtol: float | None = None,
     atol: float | None = None,
     progress: Callable[[float], None] | None = None,
@@ -80,7 +81,8 @@ def simulate(
         ``"dop853"`` are Runge-Kutta pairs of order 3, 5 and 8 whose steps follow a tolerance;
         they locate every switch of a law. The others march in equal steps: ``"symplectic_euler"``
         (order 1), ``"central_difference"``, ``"newmark"``, ``"hht"``, ``"generalized_alpha"``,
-        ``"trbdf2"``, ``"exponential"`` (order 2) and ``"devogelaere"`` (order 4).
+        ``"trbdf2"``, ``"exponential"`` (order 2) and ``"devogelaere"`` (order 4);
+        ``"moreau_jean"`` steps over the impacts of rigid stops (order 1).
     dt
         Step in s of the fixed-step methods.
     beyond_stability_limit
@@ -93,6 +95,9 @@ def simulate(
     spectral_radius
         Of generalised alpha: what a step leaves of the highest frequencies, from 0 to 1, 0.8 where
         left out.
+    theta
+        Weight of the end of a step in the method of Moreau and Jean, from 1/2 to 1, 1/2 where left
+        out.
     rtol
         Relative tolerance of the adaptive methods, if one is taken, 1e-8 where left out: the error
         of a step in each modal displacement and velocity over the largest that it has been so far.
@@ -148,7 +153,13 @@ def simulate(
     if chosen == "exact" and method == "auto":
         rtol = atol = None
     beyond = beyond_stability_limit or None
-    of_scheme = {"beta": beta, "gamma": gamma, "alpha": alpha, "spectral_radius": spectral_radius}
+    of_scheme = {
+        "beta": beta,
+        "gamma": gamma,
+        "alpha": alpha,
+        "spectral_radius": spectral_radius,
+        "theta": theta,
+    }
     given = {"dt": dt, "beyond_stability_limit": beyond, "rtol": rtol, "atol": atol, **of_scheme}
     check_options(chosen, unknown, given)
     check_method(chosen, problem)

@@ -9,8 +9,8 @@ use bumpstop_core::law::AnyLaw;
 use bumpstop_core::method::adaptive::{PairName, Tolerances};
 use bumpstop_core::method::fixed_step::Step;
 use bumpstop_core::method::one_step::{
-    GeneralizedAlpha, Hht, Newmark, SchemeName, devogelaere, exponential, generalized_alpha, hht,
-    newmark, trbdf2,
+    GeneralizedAlpha, Hht, MoreauJean, Newmark, SchemeName, devogelaere, exponential,
+    generalized_alpha, hht, moreau_jean, newmark, trbdf2,
 };
 use bumpstop_core::method::{self, Method, Observer, central_difference, symplectic_euler};
 use bumpstop_core::problem::Problem;
@@ -129,6 +129,9 @@ pub(crate) fn scheme_named(name: &str, parameters: &Parameters) -> Option<Scheme
         trbdf2::NAME => SchemeName::TrBdf2,
         devogelaere::NAME => SchemeName::DeVogelaere,
         exponential::NAME => SchemeName::Exponential,
+        moreau_jean::NAME => SchemeName::MoreauJean(MoreauJean {
+            theta: given("theta", MoreauJean::default().theta),
+        }),
         _ => return None,
     };
     Some(scheme)

@@ -26,6 +26,7 @@ class MethodOptions(TypedDict, total=False):
     gamma: float
     alpha: float
     spectral_radius: float
+    theta: float
     rtol: float
     atol: float
 

@@ -122,7 +122,7 @@ impl<L: Law> End for Account<'_, L> {
         }
     }
 
-    fn rates(&self, to: &mut Vec<f64>) {
+    fn rates(&self, [_, to]: [&mut Vec<f64>; 2]) {
         let [_, v, a] = &self.kept;
         let powers = &self.powers;
         let rates: [f64; TOLD] = [

@@ -25,6 +25,10 @@ const ITERATIONS: [usize; 2] = [20, 40];
 /// A residual counts as zero down to this many times the rounding of what it is made of.
 const ROUNDINGS: f64 = 64.0;
 
+/// Of a force, in an equation that tells a rate instead: stops of which one alone would do share
+/// what they push.
+const DEPENDENT: f64 = 1e-11;
+
 /// How unit forces along the laws' coordinates move the modes by the end of a stage.
 #[derive(Debug)]
 pub(crate) struct Pushes {
@@ -68,6 +72,9 @@ pub(crate) struct Laws<'a, L> {
     /// One a coordinate, in N.
     pub forces: Vec<f64>,
     seen: Vec<State>,
+    /// Of each law with restitution that takes part: the rate of its distance before, and the
+    /// restitution.
+    touched: Vec<Option<(f64, f64)>>,
     /// What forces are solved from: motion of the coordinates without them.
     free: [Vec<f64>; 2],
     iterate: Iterate,
@@ -83,6 +90,8 @@ struct Iterate {
     residual: Vec<f64>,
     /// Derivatives of each force with respect to the coordinates of its own law.
     slopes: [Vec<Local<f64>>; 2],
+    /// What of each force itself is in its equation: all, or nothing where an impact tells a rate.
+    own: Vec<f64>,
     /// The law of each coordinate.
     law: Vec<usize>,
     active: Vec<usize>,
@@ -111,6 +120,7 @@ impl<'a, L: Law> Laws<'a, L> {
         let mut laws = Self {
             problem,
             first,
+            touched: vec![None; states.len()],
             seen: states.clone(),
             states,
             forces: zeros(),
@@ -124,6 +134,7 @@ impl<'a, L: Law> Laws<'a, L> {
                     vec![[0.0; COORDINATES]; count],
                     vec![[0.0; COORDINATES]; count],
                 ],
+                own: vec![1.0; count],
                 law,
                 active: Vec::with_capacity(count),
                 matrix: Vec::with_capacity(count * count),
@@ -146,6 +157,17 @@ impl<'a, L: Law> Laws<'a, L> {
             let count = law.rows().len();
             self.forces[self.first[index]..][..count].copy_from_slice(&force[..count]);
         }
+    }
+
+    /// Lets a law with restitution take part in a step, or not.
+    pub(crate) fn touch(&mut self, law: usize, how: Option<(f64, f64)>) {
+        self.touched[law] = how;
+    }
+
+    /// Takes the force of a law with restitution back, and the rate of its distance before.
+    pub(crate) fn release(&mut self, law: usize) -> Option<(f64, f64)> {
+        let force = std::mem::take(&mut self.forces[self.first[law]]);
+        self.touched[law].take().map(|(rate, _)| (force, rate))
     }
 
     /// Adds the modal forces of all laws, times a factor, to modal numbers.
@@ -185,7 +207,7 @@ impl<'a, L: Law> Laws<'a, L> {
             }
             for _ in 0..most {
                 self.go_to(pushes);
-                if self.look(held == 1) {
+                if self.look(held == 1, pushes) {
                     self.forces.copy_from_slice(&self.iterate.forces);
                     self.states.copy_from_slice(&self.seen);
                     return Ok(());
@@ -225,9 +247,13 @@ impl<'a, L: Law> Laws<'a, L> {
 
     /// Looks at the laws' forces in the motion of the iterate; returns whether they are those of
     /// the iterate.
-    fn look(&mut self, held: bool) -> bool {
+    fn look(&mut self, held: bool, pushes: &Pushes) -> bool {
         let mut settled = true;
         for (index, law) in self.problem.laws.iter().enumerate() {
+            if law.restitution().is_some() {
+                settled &= (self.iterate).strike(self.first[index], self.touched[index], pushes);
+                continue;
+            }
             let (first, count) = (self.first[index], law.rows().len());
             let local = |all: &[f64]| -> Local<f64> {
                 std::array::from_fn(|c| if c < count { all[first + c] } else { 0.0 })
@@ -276,6 +302,30 @@ impl<'a, L: Law> Laws<'a, L> {
 }
 
 impl Iterate {
+    /// Looks at the impulse of a law with restitution, as a force: `min(f, r w) = 0` for the rate
+    /// `w = u1 + e u` and some r > 0 (P. Alart, A. Curnier, A mixed formulation for frictional contact
+    /// problems, Computer Methods in Applied Mechanics and Engineering 92, 353-375, 1991); one that
+    /// takes no part has no force. Returns whether that holds.
+    fn strike(&mut self, at: usize, touched: Option<(f64, f64)>, pushes: &Pushes) -> bool {
+        let (count, force) = (self.forces.len(), self.forces[at]);
+        let gain = pushes.on[1][at * count + at];
+        self.slopes[1][at] = [0.0; COORDINATES];
+        self.own[at] = 1.0;
+        self.residual[at] = -force;
+        let Some((before, restitution)) = touched.filter(|_| gain > 0.0) else {
+            return force == 0.0;
+        };
+        let wanted = (self.motion[1][at] + restitution * before) / gain;
+        if force <= wanted {
+            return force == 0.0;
+        }
+        let size = force.abs() + (self.sizes[1][at] + restitution * before.abs()) / gain;
+        self.slopes[1][at][0] = -1.0 / gain;
+        self.own[at] = DEPENDENT;
+        self.residual[at] = -wanted;
+        wanted.abs() <= ROUNDINGS * f64::EPSILON * size
+    }
+
     /// Newton's step: `(1 - phi_x A - phi_v B) step = residual`. The forces of laws that do not
     /// answer to motions follow at once; the others are solved for together.
     fn improve(&mut self, pushes: &Pushes) {
@@ -289,7 +339,8 @@ impl Iterate {
             for j in 0..count {
                 let gain = self.gain(pushes, i, j);
                 if self.active.binary_search(&j).is_ok() {
-                    self.matrix.push(f64::from(i == j) - gain);
+                    let own = if i == j { self.own[i] } else { 0.0 };
+                    self.matrix.push(own - gain);
                 } else {
                     self.step[i] += gain * self.residual[j];
                 }

@@ -12,6 +12,7 @@ pub mod exponential;
 pub mod generalized_alpha;
 pub mod hht;
 mod laws;
+pub mod moreau_jean;
 pub mod newmark;
 mod structure;
 mod trace;
@@ -24,6 +25,7 @@ pub(crate) use trace::{End, Trace};
 
 pub use generalized_alpha::GeneralizedAlpha;
 pub use hht::Hht;
+pub use moreau_jean::MoreauJean;
 pub use newmark::Newmark;
 
 use super::fixed_step::{Step, check_forces, check_step, check_uncoupled, highest_frequency};
@@ -55,6 +57,8 @@ pub enum SchemeName {
     DeVogelaere,
     /// See [`exponential`].
     Exponential,
+    /// See [`moreau_jean`].
+    MoreauJean(MoreauJean),
 }
 
 impl SchemeName {
@@ -67,6 +71,7 @@ impl SchemeName {
             Self::TrBdf2 => trbdf2::NAME,
             Self::DeVogelaere => devogelaere::NAME,
             Self::Exponential => exponential::NAME,
+            Self::MoreauJean(_) => moreau_jean::NAME,
         }
     }
 
@@ -88,6 +93,7 @@ impl SchemeName {
             Self::Newmark(newmark) => newmark.weights().map(drop),
             Self::Hht(hht) => hht.weights().map(drop),
             Self::GeneralizedAlpha(alpha) => alpha.weights().map(drop),
+            Self::MoreauJean(scheme) => scheme.check(),
             Self::TrBdf2 | Self::DeVogelaere | Self::Exponential => Ok(()),
         }
     }
@@ -101,9 +107,11 @@ impl SchemeName {
             Self::Newmark(newmark) => newmark.weights(),
             Self::Hht(hht) => hht.weights(),
             Self::GeneralizedAlpha(alpha) => alpha.weights(),
-            Self::TrBdf2 | Self::DeVogelaere | Self::Exponential => Err(Error::NotInFamily {
-                method: self.name(),
-            }),
+            Self::TrBdf2 | Self::DeVogelaere | Self::Exponential | Self::MoreauJean(_) => {
+                Err(Error::NotInFamily {
+                    method: self.name(),
+                })
+            }
         }
     }
 
@@ -148,7 +156,9 @@ pub fn simulate<L: Law>(
     let (name, h) = (scheme.name(), step.dt);
     let trace = Trace::new(problem, Layout::new(problem), h)?;
     scheme.check()?;
-    check_forces(name, &problem.laws)?;
+    if !matches!(scheme, SchemeName::MoreauJean(_)) {
+        check_forces(name, &problem.laws)?;
+    }
     check_memories(name, &problem.laws)?;
     if scheme.goes_mode_by_mode() {
         check_uncoupled(name, &problem.system)?;
@@ -163,6 +173,7 @@ pub fn simulate<L: Law>(
         SchemeName::Newmark(newmark) => run(in_family(newmark.weights()?)?, trace, observer),
         SchemeName::Hht(hht) => run(in_family(hht.weights()?)?, trace, observer),
         SchemeName::GeneralizedAlpha(alpha) => run(in_family(alpha.weights()?)?, trace, observer),
+        SchemeName::MoreauJean(scheme) => moreau_jean::run(problem, scheme, trace, observer),
         SchemeName::TrBdf2 => run(trbdf2::TrBdf2::new(problem, h)?, trace, observer),
         SchemeName::DeVogelaere => run(devogelaere::DeVogelaere::new(problem, h)?, trace, observer),
         SchemeName::Exponential => run(exponential::Exponential::new(problem, h), trace, observer),
@@ -176,6 +187,15 @@ pub(crate) fn check_memories<L: Law>(method: &'static str, laws: &[L]) -> Result
     match laws.iter().position(Law::flows) {
         Some(law) => Err(Error::FlowingMemory { method, law }),
         None => Ok(()),
+    }
+}
+
+/// Refuses a motion that left the range of numbers.
+fn finite(motion: &Motion, time: f64) -> Result<()> {
+    if motion.q.iter().chain(&motion.v).all(|x| x.is_finite()) {
+        Ok(())
+    } else {
+        Err(Error::Overflow { time })
     }
 }
 
@@ -193,9 +213,7 @@ fn run<'a, L: Law>(
             observe(observer, span[0])?;
         }
         scheme.step(span, &mut motion, &mut laws)?;
-        if !motion.q.iter().chain(&motion.v).all(|x| x.is_finite()) {
-            return Err(Error::Overflow { time: span[1] });
-        }
+        finite(&motion, span[1])?;
         trace.add(span, &motion, &laws)?;
     }
     Ok(trace)

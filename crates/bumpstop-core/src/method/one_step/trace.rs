@@ -12,7 +12,8 @@ use crate::error::{Error, Result};
 use crate::history::Event;
 use crate::law::{Law, State};
 use crate::method::polynomial_steps::{
-    Crossing, Dense, Equations, Layout, PolynomialRecord, Step, Watch, cubic_rates, write_cubic,
+    Crossing, Dense, Equations, Layout, Percussion, PolynomialRecord, Step, Watch, cubic_rates,
+    write_cubic,
 };
 use crate::problem::Problem;
 
@@ -49,6 +50,8 @@ pub(crate) struct Trace<'a, L> {
     /// The works of the energy ledger so far, and what these say of it.
     works: Vec<f64>,
     growth: Option<Growth>,
+    /// Impulses in the step that is kept next.
+    percussions: Vec<Percussion>,
 }
 
 /// Numbers and rates at both ends of a part and in its middle, and its cubic.
@@ -72,8 +75,9 @@ pub(crate) trait End {
     /// Writes the numbers before the works.
     fn numbers(&self, to: &mut [f64]);
 
-    /// Writes their rates, where the equations of the problem do not say them.
-    fn rates(&self, _to: &mut Vec<f64>) {}
+    /// Writes their rates at both ends of the step, where the equations of the problem do not say
+    /// them; those at the start are what the step before told, unless they change.
+    fn rates(&self, _ends: [&mut Vec<f64>; 2]) {}
 }
 
 impl End for Motion {
@@ -121,6 +125,7 @@ impl<'a, L: Law> Trace<'a, L> {
             cuts: Vec::new(),
             works: vec![0.0; layout.size() - layout.works],
             growth: None,
+            percussions: Vec::new(),
             record: PolynomialRecord::new(layout, DEGREE),
         })
     }
@@ -171,15 +176,22 @@ impl<'a, L: Law> Trace<'a, L> {
     /// Takes what is told of the end of a step.
     fn take(&mut self, end: &impl End) {
         end.numbers(&mut self.ends[1][..self.equations.layout.works]);
-        self.told[1].clear();
-        end.rates(&mut self.told[1]);
+        let [first, last] = &mut self.told;
+        last.clear();
+        end.rates([first, last]);
     }
 
     /// The rates at one end of the step, in the states and loads that the equations are turned to.
     fn find_rates(&mut self, end: usize, time: f64) {
-        let (rates, told) = (&mut self.rates[end], &self.told[end]);
-        self.equations.rates(time, &self.ends[end], rates);
-        rates[..told.len()].copy_from_slice(told);
+        self.equations
+            .rates(time, &self.ends[end], &mut self.rates[end]);
+        self.take_told(end);
+    }
+
+    /// Takes the rates that are told at one end of the step.
+    fn take_told(&mut self, end: usize) {
+        let told = &self.told[end];
+        self.rates[end][..told.len()].copy_from_slice(told);
     }
 
     /// Keeps a step.
@@ -210,7 +222,31 @@ impl<'a, L: Law> Trace<'a, L> {
         }
         // Memories go on, too, where states do not switch.
         self.states.copy_from_slice(&laws.states);
+        self.keep_percussions();
         self.check_growth(span[1])
+    }
+
+    /// Takes note of an impulse in the step that is kept next.
+    pub(super) fn strike(&mut self, percussion: Percussion) {
+        self.percussions.push(percussion);
+    }
+
+    /// Keeps the impulses of the step that was kept last.
+    fn keep_percussions(&mut self) {
+        for percussion in self.percussions.drain(..) {
+            let Percussion { law, time, .. } = percussion;
+            self.record.strike(percussion);
+            let state = self.states[law];
+            if !self.problem.laws[law].in_contact(state) && time < self.problem.duration {
+                self.events.push(Event {
+                    time,
+                    law,
+                    guard: "impact",
+                    before: state,
+                    after: state,
+                });
+            }
+        }
     }
 
     /// Refuses a motion that blows up.
@@ -240,6 +276,8 @@ impl<'a, L: Law> Trace<'a, L> {
             // They may have jumped.
             self.equations.take_states(&self.states);
             self.find_rates(0, start);
+        } else {
+            self.take_told(0);
         }
         while knot < end {
             self.cuts.push(Cut {
@@ -330,6 +368,11 @@ impl<'a, L: Law> Trace<'a, L> {
             numbers[0][work] = self.works[work - works];
             let mean = (rates[0][work] + 4.0 * rates[2][work] + rates[1][work]) / 6.0;
             numbers[1][work] = numbers[0][work] + h * mean;
+        }
+        if to == 1.0 {
+            for percussion in &self.percussions {
+                numbers[1][self.equations.layout.dissipated(percussion.law)] += percussion.loss();
+            }
         }
         self.works.copy_from_slice(&numbers[1][works..]);
         let [start, end, _] = &*numbers;

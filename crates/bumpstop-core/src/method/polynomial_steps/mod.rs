@@ -12,6 +12,7 @@ mod curved;
 mod dense;
 mod equations;
 mod loads;
+mod percussion;
 mod record;
 mod watch;
 
@@ -19,4 +20,5 @@ pub use record::PolynomialRecord;
 
 pub(crate) use dense::{Dense, cubic_rates, write_cubic};
 pub(crate) use equations::{Equations, Layout, TOLD};
+pub(crate) use percussion::Percussion;
 pub(crate) use watch::{Crossing, Step, Watch, longest_step};

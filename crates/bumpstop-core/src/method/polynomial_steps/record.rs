@@ -3,6 +3,7 @@
 use super::contact::ContactReader;
 use super::dense::{Dense, cubic_rates};
 use super::equations::Layout;
+use super::percussion::{self, Percussion};
 use crate::energy::{self, Ledger};
 use crate::error::{Error, Result};
 use crate::impacts::Impact;
@@ -23,6 +24,8 @@ pub struct PolynomialRecord {
     rows: Vec<f64>,
     /// States of all laws; steps between two switches share them.
     states: Vec<State>,
+    /// Impulses of rigid stops, in order of time.
+    percussions: Vec<Percussion>,
 }
 
 /// A step, as far as it was gone.
@@ -45,7 +48,13 @@ impl PolynomialRecord {
             list: Vec::new(),
             rows: Vec::new(),
             states: Vec::new(),
+            percussions: Vec::new(),
         }
+    }
+
+    /// Takes note of an impulse.
+    pub(crate) fn strike(&mut self, percussion: Percussion) {
+        self.percussions.push(percussion);
     }
 
     /// Refuses to make room for more steps than memory holds.
@@ -208,6 +217,10 @@ impl PolynomialRecord {
 
     /// Impacts of one law, in order of closing.
     pub(crate) fn impacts<L: Law>(&self, problem: &Problem<L>, law: usize) -> Vec<Impact> {
+        if problem.laws[law].restitution().is_some() {
+            let own = self.percussions.iter().filter(|each| each.law == law);
+            return percussion::impacts(own);
+        }
         ContactReader::new(self, problem, law).impacts()
     }
 }

@@ -38,6 +38,11 @@ class RunTable(Table):
         description="What a step of the generalized_alpha method leaves of the highest "
         "frequencies, 0 to 1, 0.8 where left out",
     )
+    theta: Ratio | None = Field(
+        default=None,
+        description="Weight of the end of a step in the moreau_jean method, 1/2 to 1, 1/2 where "
+        "left out",
+    )
     rtol: PositiveNumber | None = Field(
         default=None,
         description="Relative tolerance of the adaptive methods, 1e-8 where left out; the others "
