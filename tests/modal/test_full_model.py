@@ -259,3 +259,14 @@ def test_a_case_file_may_ask_for_a_full_model(tmp_path: Path) -> None:
         tip = written["displacement"].sel(node=b"B" if written["node"].dtype.kind == "S" else "B")
         assert np.isfinite(written["stop_force"]).all()
         assert np.allclose(tip.isel(dof=0), run.sample("displacement", "B", "dy"))
+
+
+def test_what_needs_modes_says_so() -> None:
+    structure = beam(3)
+    model = bs.FullModel.from_structure(structure)
+    stop = bs.Stop("stop", node="B", normal=(0, 1, 0), stiffness=45e3)
+    with pytest.raises(bs.InputError, match="needs modes"):
+        swung(model, initial=bs.StaticState(laws=[stop]))
+    run = bs.simulate(swung(model), "newmark", dt=1e-5)
+    with pytest.raises(bs.InputError, match="needs modes"):
+        bs.recovery(run)

@@ -30,13 +30,16 @@ def modes_command(path: Path, *, json: bool, out: Path | None) -> int:
     is given, a page draws the modes.
     """
     case = load_case(path)
+    bases = {name: basis for name, basis in case.bases.items() if not basis.unreduced}
+    if not bases:
+        what = "a full model has no modes"
+        raise InputError(what, file=str(path), key="basis.model", hint='ask for model = "modal"')
     if out is not None:
         from bumpstop.cli.outputs import MODES, write_modes_page
         from bumpstop.cli.staging import check_writable
 
         check_writable(out, [MODES])
         write_modes_page(case, out)
-    bases = case.bases
     if json:
         records = {name: _record(basis) for name, basis in bases.items()}
         first = next(iter(records.values()))

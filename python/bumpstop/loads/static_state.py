@@ -134,9 +134,7 @@ class StaticState:
         InputError
             If nothing holds the structure, or it has no equilibrium that it would stay in.
         """
-        if basis.unreduced:
-            hint = "give the displacements of the nodes instead"
-            raise InputError("needs a modal basis", key="static", hint=hint)
+        basis.require_modes("static")
         holds = [_held(basis, law) for law in self.laws]
         balance = _Balance(basis, self._force(basis), holds)
         return balance.found(), np.zeros(len(basis.omega2))

@@ -463,6 +463,18 @@ class ModalBasis:
         coordinates: FloatArray = self.mass_rows @ field
         return coordinates
 
+    def require_modes(self, key: str) -> None:
+        """Raise where mass or stiffness couples the coordinates, as in a full model.
+
+        Raises
+        ------
+        InputError
+            If they do; ``key`` says what needs modes.
+        """
+        if self.unreduced:
+            what = "needs modes, which a full model has not"
+            raise InputError(what, key=key, hint="take a ModalBasis, of all modes if you like")
+
     def canonical(self, amplitudes: FloatArray) -> FloatArray:
         """Return the canonical coordinates (N,) of amplitudes of the user's vectors (U,)."""
         return (

@@ -48,6 +48,7 @@ class Forces:
     response: Response
 
     def __post_init__(self) -> None:
+        self.basis.require_modes("basis")
         if not self.basis.has_masses:
             hint = "make the basis from a structure or from matrices"
             raise InputError("forces need the masses of a structure", key="basis", hint=hint)

@@ -235,6 +235,7 @@ def periodicity(
 
 def _states(response: Response, times: FloatArray) -> FloatArray:
     """Return states in units of velocity, (time, 2 N); a rigid mode counts with 1 rad/s."""
+    response.problem.basis.require_modes("response")
     omega = np.sqrt(np.abs(response.problem.basis.omega2))
     scale = np.where(omega > 0.0, omega, 1.0)
     return np.hstack([response.motion(0, times) * scale, response.motion(1, times)])
