@@ -108,8 +108,8 @@ def test_steps_beyond_the_limit_blow_up_and_are_refused(
     assert np.abs(displacements(response, [390.0])).max() < 20.0
     with pytest.raises(bs.InputError, match=f"stability limit of {limit:.6g} s of the {method}"):
         bs.simulate(problem, method, dt=1.01 * limit, **options)
-    wild = bs.simulate(problem, method, dt=1.01 * limit, beyond_stability_limit=True, **options)
-    assert np.abs(displacements(wild, [390.0])).max() > 1e3
+    with pytest.raises(bs.ComputationError, match="the motion blows up"):
+        bs.simulate(problem, method, dt=1.01 * limit, beyond_stability_limit=True, **options)
 
 
 def test_damping_lowers_the_limit_of_devogelaere() -> None:
@@ -120,8 +120,8 @@ def test_damping_lowers_the_limit_of_devogelaere() -> None:
     problem = oscillator(omega / (2 * np.pi), damping=ratio, duration=600.0)
     quiet = bs.simulate(problem, "devogelaere", dt=0.98 * limit)
     assert np.abs(displacements(quiet, [590.0])).max() < 1e-3
-    wild = bs.simulate(problem, "devogelaere", dt=1.02 * limit, beyond_stability_limit=True)
-    assert np.abs(displacements(wild, [590.0])).max() > 10.0
+    with pytest.raises(bs.ComputationError, match="the motion blows up"):
+        bs.simulate(problem, "devogelaere", dt=1.02 * limit, beyond_stability_limit=True)
 
 
 def test_exponentials_are_exact_for_a_linear_structure() -> None:

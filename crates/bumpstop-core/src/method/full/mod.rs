@@ -137,11 +137,12 @@ pub fn simulate<L: Law>(
     observer: Observer<'_>,
 ) -> Result<History<L>> {
     let (name, seen, h) = (scheme.name(), &problem.seen, step.dt);
-    let trace = Trace::new(seen, Layout::told(seen), h)?;
+    let mut trace = Trace::new(seen, Layout::told(seen), h)?;
     check_forces(name, &seen.laws)?;
     check_memories(name, &seen.laws)?;
     let limit = scheme.stability_limit(problem)?;
     check_step(name, step, limit)?;
+    trace.watch_growth(limit);
     let trace = match scheme {
         FullScheme::CentralDifference => run(
             problem,

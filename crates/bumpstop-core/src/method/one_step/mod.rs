@@ -154,7 +154,7 @@ pub fn simulate<L: Law>(
     observer: Observer<'_>,
 ) -> Result<History<L>> {
     let (name, h) = (scheme.name(), step.dt);
-    let trace = Trace::new(problem, Layout::new(problem), h)?;
+    let mut trace = Trace::new(problem, Layout::new(problem), h)?;
     scheme.check()?;
     if !matches!(scheme, SchemeName::MoreauJean(_)) {
         check_forces(name, &problem.laws)?;
@@ -165,6 +165,7 @@ pub fn simulate<L: Law>(
     }
     let limit = scheme.stability_limit(&problem.system, &problem.laws);
     check_step(name, step, limit)?;
+    trace.watch_growth(limit);
     let in_family = |weights: Weights| {
         let modes = Modes::new(problem, weights.matrix(h))?;
         AlphaFamily::new(modes, &problem.laws, weights, h)

@@ -50,6 +50,7 @@ pub(crate) struct Trace<'a, L> {
     /// The works of the energy ledger so far, and what these say of it.
     works: Vec<f64>,
     growth: Option<Growth>,
+    may_blow_up: bool,
     /// Impulses in the step that is kept next.
     percussions: Vec<Percussion>,
 }
@@ -125,9 +126,16 @@ impl<'a, L: Law> Trace<'a, L> {
             cuts: Vec::new(),
             works: vec![0.0; layout.size() - layout.works],
             growth: None,
+            may_blow_up: false,
             percussions: Vec::new(),
             record: PolynomialRecord::new(layout, DEGREE),
         })
+    }
+
+    /// Watches the energy, for schemes with a stability limit. Where any step is stable, steps that
+    /// are long beside a mode's period may tell more energy than there is, and nothing grows.
+    pub(crate) fn watch_growth(&mut self, limit: f64) {
+        self.may_blow_up = limit.is_finite();
     }
 
     pub(super) fn problem(&self) -> &'a Problem<L> {
@@ -166,11 +174,11 @@ impl<'a, L: Law> Trace<'a, L> {
         self.equations.take_states(&self.states);
         self.take(end);
         self.find_rates(1, 0.0);
-        let start = self
-            .equations
-            .layout
-            .ledger(self.problem, 0.0, &self.states, &self.ends[1]);
-        self.growth = Some(Growth::new(&start));
+        if self.may_blow_up {
+            let layout = &self.equations.layout;
+            let start = layout.ledger(self.problem, 0.0, &self.states, &self.ends[1]);
+            self.growth = Some(Growth::new(&start));
+        }
     }
 
     /// Takes what is told of the end of a step.
