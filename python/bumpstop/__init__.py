@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from bumpstop.io.matrices import read_matrices, write_matrices
     from bumpstop.io.meshes import read_mesh
     from bumpstop.io.modes import identify_modes, read_modes
-    from bumpstop.io.stored import read_netcdf
+    from bumpstop.io.stored import read_netcdf, read_results
     from bumpstop.laws.circle_stop import CircleStop
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hertz_stop import HertzStop
@@ -243,6 +243,7 @@ __all__ = [
     "read_mesh",
     "read_modes",
     "read_netcdf",
+    "read_results",
     "recovery",
     "response_spectrum",
     "sampled_impacts",
@@ -382,6 +383,7 @@ _HOME = {
     "read_mesh": "io.meshes",
     "read_modes": "io.modes",
     "read_netcdf": "io.stored",
+    "read_results": "io.stored",
     "recovery": "post.recovery",
     "response_spectrum": "post.response_spectrum",
     "sampled_impacts": "post.sampled",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, SupportsIndex
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from bumpstop._core import History
     from bumpstop.post.impacts import Table
+    from bumpstop.post.results.reading import Reading, Result
     from bumpstop.problem import Problem
     from bumpstop.structure.sparse import IndexArray
 
@@ -137,6 +138,11 @@ class Response:
     @cached_property
     def known_impacts(self) -> dict[int, dict[str, FloatArray]]:
         """The impacts of those stops that were asked for so far, by their numbers."""
+        return {}
+
+    @cached_property
+    def known_readings(self) -> dict[str, tuple[Result, Reading]]:
+        """What was read of it so far for results of its case, by their names."""
         return {}
 
     @property
@@ -436,6 +442,7 @@ class Response:
         title: str | None = None,
         case: str | None = None,
         variant: str | None = None,
+        results: Sequence[Result] = (),
     ) -> None:
         """Write the response, tabulated at its times, to a NetCDF-4 file.
 
@@ -445,6 +452,8 @@ class Response:
             File to write; a file of that name is replaced once the new one is complete.
         title, case, variant
             What to say in the file about where the problem comes from.
+        results
+            Results of its case whose numbers are to be in the file; `read_results` reads them.
 
         Raises
         ------
@@ -453,7 +462,8 @@ class Response:
         """
         from bumpstop.io.netcdf import write_netcdf
 
-        write_netcdf(self, path, title=title, case=case, variant=variant)
+        told = {"title": title, "case": case, "variant": variant}
+        write_netcdf(self, path, **told, results=results)
 
     def equals(self, other: Response) -> bool:
         """Return whether another response tells the same, to the bit.

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import bumpstop as bs
@@ -200,3 +201,32 @@ def test_a_result_that_cannot_be_read_leaves_the_others(
     assert "Could not be read: results.rising: " in page
     assert "Number of impacts" in page
     assert bs.read_netcdf(next((tmp_path / "out").glob("*/response.nc"))).event_count > 0
+
+
+def test_their_numbers_stand_in_the_file(tmp_path: Path) -> None:
+    text = "".join(f"[results.{name}]\n{table}\n" for name, table in RESULTS.items())
+    file = tmp_path / "case.toml"
+    file.write_text(f"{CASE}{text}")
+    assert main(["run", str(file), "--out", str(tmp_path / "out")]) == 0
+    found = bs.read_results(tmp_path / "out" / "base" / "response.nc")
+    case = bs.load_case(file)
+    response = bs.simulate(case.problems["base"], method="exact")
+    facts = [
+        (each.name, fact.what.long_name, fact.what.units, fact.value, fact.uncertainty)
+        for each in case.results["base"]
+        for fact in each.read(response).facts
+    ]
+    assert len(facts) > 10
+    expected = pd.DataFrame(facts, columns=["name", "quantity", "units", "value", "uncertainty"])
+    pd.testing.assert_frame_equal(found, expected, check_exact=True)
+
+
+def test_a_file_without_results_has_none(tmp_path: Path) -> None:
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    bs.simulate(bs.Problem(basis, duration=1.0)).to_netcdf(tmp_path / "free.nc")
+    assert len(bs.read_results(tmp_path / "free.nc")) == 0
+    (tmp_path / "text.nc").write_text("no file of numbers")
+    with pytest.raises(bs.InputError, match="no response that bumpstop wrote"):
+        bs.read_results(tmp_path / "text.nc")
+    with pytest.raises(bs.InputError, match="no such file"):
+        bs.read_results(tmp_path / "missing.nc")

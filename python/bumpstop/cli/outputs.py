@@ -70,6 +70,7 @@ def write_outputs(result: CaseResult, folder: Path, exports: Exports, *, report:
                 title=result.case.title,
                 case=result.case.name,
                 variant=name,
+                results=result.case.results.get(name, ()),
             )
             for file in others:
                 response.export(staging / name / file)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bumpstop.arguments import FloatArray
+    from bumpstop.post.results.reading import Result
     from bumpstop.problem import Problem
     from bumpstop.response import Response
     from bumpstop.structure.model import LinearModel
@@ -55,6 +56,7 @@ def write_netcdf(
     title: str | None = None,
     case: str | None = None,
     variant: str | None = None,
+    results: Sequence[Result] = (),
 ) -> None:
     """Write a response, tabulated at its times, to a NetCDF-4 file.
 
@@ -74,6 +76,8 @@ def write_netcdf(
         The file; one of that name is replaced once the new one is complete.
     title, case, variant
         Where the problem comes from.
+    results
+        Results of its case whose numbers are to be in the file.
 
     Raises
     ------
@@ -84,7 +88,11 @@ def write_netcdf(
     told = {name: value for name, value in attributes.items() if value is not None}
     length, words = len(response.instants), states_of(response)
     blocks = response.blocks(_block(response))
-    first = [*_over_time(next(blocks)[1], words), *_of_the_run(response, words)]
+    first = [
+        *_over_time(next(blocks)[1], words),
+        *_of_the_run(response, words),
+        *_results(response, results),
+    ]
     with written_whole(path) as part:
         write_file(part, first, told, Growth("time", length, _further(blocks, words)))
 
@@ -283,6 +291,34 @@ def _events(response: Response) -> Iterator[Variable]:
     yield Variable("event_time", ("event",), np.array(table["time"], dtype=float), instant)
     for name, meaning in words.items():
         yield Variable(f"event_{name}", ("event",), _texts(table[name]), {"long_name": meaning})
+
+
+def _results(response: Response, results: Sequence[Result]) -> Iterator[Variable]:
+    """Give the numbers of results, a row each."""
+    if not results:
+        return
+    from bumpstop.post.results.reading import read_result
+
+    facts = [(each.name, fact) for each in results for fact in read_result(each, response).facts]
+    if not facts:
+        return
+    words = {
+        "name": ("name of the result", [name for name, _ in facts]),
+        "quantity": ("what was read", [fact.what.long_name for _, fact in facts]),
+        "units": ("unit of the value", [fact.what.units for _, fact in facts]),
+    }
+    for name, (meaning, texts) in words.items():
+        yield Variable(f"result_{name}", ("result",), _texts(texts), {"long_name": meaning})
+    numbers = {
+        "value": ("value, in its own unit", [fact.value for _, fact in facts]),
+        "uncertainty": (
+            "standard error, in the unit of the value",
+            [f.uncertainty for _, f in facts],
+        ),
+    }
+    for name, (meaning, values) in numbers.items():
+        column = np.array(values, dtype=float)
+        yield Variable(f"result_{name}", ("result",), column, {"long_name": meaning})
 
 
 def _problem(problem: Problem) -> Iterator[Variable]:

@@ -22,9 +22,13 @@ from bumpstop.response import Response
 from bumpstop.sampling import MOTIONS
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from bumpstop._core import History
 
-__all__ = ["StoredHistory", "read_netcdf"]
+__all__ = ["StoredHistory", "read_netcdf", "read_results"]
+
+RESULT_COLUMNS = ("name", "quantity", "units", "value", "uncertainty")
 
 
 def read_netcdf(path: str | PathLike[str]) -> Response:
@@ -55,6 +59,45 @@ def read_netcdf(path: str | PathLike[str]) -> Response:
         except (OSError, KeyError, RuntimeError) as error:  # h5py raises all three
             what = "is no response that bumpstop wrote, or is damaged"
             raise InputError(what, hint="Response.to_netcdf writes one") from error
+
+
+def read_results(path: str | PathLike[str]) -> pd.DataFrame:
+    """Read the numbers of the results that a case had asked for, from the file of a run.
+
+    Parameters
+    ----------
+    path
+        A file of ``bumpstop run --out``, or of `Response.to_netcdf` with ``results``.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row a number: ``name`` of the result, ``quantity`` in words, ``units``, ``value``, and
+        ``uncertainty``, its standard error, NaN where there is none. No rows where there are no
+        results.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is damaged.
+    """
+    import pandas as pd
+
+    columns: dict[str, Any] = {name: [] for name in RESULT_COLUMNS}
+    with in_file(Path(path)):
+        try:
+            with h5py.File(path, "r") as content:
+                if "result_value" in content:
+                    columns = {name: _column(content[f"result_{name}"]) for name in RESULT_COLUMNS}
+        except FileNotFoundError as error:
+            raise InputError("no such file", hint="check the path") from error
+        except (OSError, KeyError) as error:
+            raise InputError("is no response that bumpstop wrote, or is damaged") from error
+    return pd.DataFrame(columns)
+
+
+def _column(dataset: h5py.Dataset) -> Any:
+    return _texts(dataset) if dataset.dtype.hasobject else dataset[()]
 
 
 def _response(file: h5py.File) -> Response:
