@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
     from bumpstop.problem import Law, Problem
 
-__all__ = ["out_of_scale"]
+__all__ = ["out_of_scale", "too_stiff"]
 
 STIFFEST = 1e10
 """Stiffness of a law beside that of the stiffest mode where it acts."""
@@ -29,6 +29,11 @@ MOST_DAMPED = 1e3
 FASTEST = 1e9
 """Angle in rad through which a mode turns in a run."""
 CRITICAL = "is {:.2g} times critical"
+
+
+MOST_TURNS = 1e13
+"""Angle in rad through which the motion against a law may turn in a run: its instants are known to
+1e-16 of the run. The core refuses what is beyond."""
 
 
 class _Finding(NamedTuple):
@@ -59,6 +64,37 @@ precision can hold apart (got 1e+30); check the units of the law and of the stru
     worst = max(found, key=lambda each: each.ratio / each.limit)
     what = f"{worst.what.format(worst.ratio)}, more than double precision can hold apart"
     return InputError(what, key=worst.key, value=worst.value, hint=worst.hint)
+
+
+def too_stiff(problem: Problem) -> InputError | None:
+    """Return what to tell of a law whose contacts the instants of the run cannot tell, or None.
+
+    Examples
+    --------
+    >>> import bumpstop as bs
+    >>> basis = bs.ModalBasis.from_modes(frequency=[0.0], shapes={("P", "dx"): [1.0]})
+    >>> wall = bs.Stop("wall", node="P", normal=(1, 0, 0), stiffness=1e30)
+    >>> print(too_stiff(bs.Problem(basis, laws=[wall], duration=10.0)))
+    stops.wall.stiffness: is more than the instants of a run of 10 s can tell, which is \
+1e+24 N/m here (got 1e+30); check its unit, or take a rigid stop
+    """
+    for law in problem.laws:
+        stiffness = getattr(law, "stiffness", None)
+        if stiffness is None:
+            continue
+        row = law.coordinate.row(problem.basis)
+        with np.errstate(all="ignore"):
+            most = (MOST_TURNS / problem.duration) ** 2 / float(row @ row)
+        if np.max(stiffness) > most:
+            what = (
+                f"is more than the instants of a run of {problem.duration:g} s can tell, "
+                f"which is {most:.2g} N/m here"
+            )
+            hint = "check its unit, or take a rigid stop"
+            return InputError(
+                what, key=f"{law.table}.{law.name}.stiffness", value=stiffness, hint=hint
+            )
+    return None
 
 
 def _findings(problem: Problem) -> Iterator[_Finding]:

@@ -41,6 +41,8 @@ FULL_WORKS = 2 * WORKS
 """The same for a full model, whose energies are kept too."""
 FINEST_RTOL = 1e-14
 """The finest relative tolerance: rounding rules below it."""
+LARGEST_RESIDUAL = 1e-6
+"""Imbalance, relative to the largest energy, above which a motion of the exact method is wrong."""
 MOST_ENERGY = 1e200
 """Twice the energy, in J, above which products of motions leave the range of numbers."""
 
@@ -193,19 +195,62 @@ def simulate(
     except _core.CoreError as error:
         _blame_scale(chosen, problem, error)
         raise ComputationError(f"the {chosen} method could not finish: {error}") from error
+    if chosen == "exact":
+        _check_outcome(problem, history)
     relative, absolute = tolerances or (None, None)
     told = {"dt": step, "rtol": relative, "atol": absolute, **parameters}
     options = {name: value for name, value in told.items() if value is not None}
     return Response(problem, history, instants=problem.grid, method_reason=reason, options=options)
 
 
+def _check_outcome(problem: Problem, history: _core.History) -> None:
+    """Refuse a motion of the exact method that is none: numbers out of scale have been lost.
+
+    The ledger of loads that change in time takes many times as long as their run: it is looked at
+    where some number of the problem is suspicious.
+    """
+    end = np.array([problem.duration])
+    state = np.hstack([history.motion(end, order) for order in (0, 1)])
+    what = ""
+    if not np.isfinite(state).all():
+        what = f"the motion is not finite at t = {problem.duration:g} s"
+    elif not _varies(problem) or _is_suspicious(problem):
+        residual = history.energy_residual()
+        if not residual <= LARGEST_RESIDUAL:
+            what = (
+                f"by t = {problem.duration:g} s the energy ledger is open by {residual:.1e} of "
+                "the largest energy"
+            )
+    if what:
+        error = ComputationError(
+            f"the exact method lost its digits: {what}; check the units of all numbers, "
+            "or take an adaptive method"
+        )
+        _blame_scale("exact", problem, error)
+        raise error
+
+
+def _varies(problem: Problem) -> bool:
+    """Whether a load changes in time or an obstacle moves."""
+    if problem.supports_move or any(getattr(law, "functions", ()) for law in problem.laws):
+        return True
+    parts = (part for load in problem.loads for part in load.components(problem.basis))
+    return any(functions for _, functions in parts)
+
+
+def _is_suspicious(problem: Problem) -> bool:
+    from bumpstop.scale import out_of_scale
+
+    return out_of_scale(problem) is not None
+
+
 def _blame_scale(method: str, problem: Problem, error: Exception) -> None:
     """Raise where a number out of scale is what the exact method stumbled over."""
     if method != "exact":
         return
-    from bumpstop.scale import out_of_scale
+    from bumpstop.scale import out_of_scale, too_stiff
 
-    blamed = out_of_scale(problem)
+    blamed = too_stiff(problem) or out_of_scale(problem)
     if blamed is not None:
         raise blamed from error
 

@@ -290,6 +290,20 @@ pub enum Error {
         /// The mode that has most of it, counted from 0; a full model has none.
         mode: Option<usize>,
     },
+    /// A law is so stiff that the instants of a run lie too far apart for it.
+    #[error(
+        "law {law} (counted from 0) has a stiffness of {stiffness:e} N/m, which moves faster than the instants of a run of {duration} s can tell; the stiffest that they can is {most:.1e} N/m"
+    )]
+    TooStiff {
+        /// The law.
+        law: usize,
+        /// Its stiffness, in N/m.
+        stiffness: f64,
+        /// The most that the run takes, in N/m.
+        most: f64,
+        /// Length of the run, in s.
+        duration: f64,
+    },
     /// Events follow each other without time advancing.
     #[error("the laws switch without end at t = {time:e} s")]
     EndlessSwitching {

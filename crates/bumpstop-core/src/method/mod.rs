@@ -8,6 +8,7 @@ pub(crate) mod instant;
 pub mod one_step;
 pub mod piecewise_linear;
 pub mod polynomial_steps;
+mod scale;
 pub mod symplectic_euler;
 
 use crate::error::{Error, Result};
@@ -57,7 +58,10 @@ pub fn simulate<L: Law>(
     observer: Observer<'_>,
 ) -> Result<History<L>> {
     match method {
-        Method::Exact => piecewise_linear::simulate(problem, observer),
+        Method::Exact => {
+            scale::check(problem)?;
+            piecewise_linear::simulate(problem, observer)
+        }
         Method::SymplecticEuler(step) => symplectic_euler::simulate(problem, step, observer),
         Method::CentralDifference(step) => central_difference::simulate(problem, step, observer),
         Method::OneStep(scheme, step) => one_step::simulate(problem, scheme, step, observer),
