@@ -349,3 +349,12 @@ def test_numbers_of_modes_in_equal_ratios_and_by_chance() -> None:
     )
     assert not drawn.failed.any()
     assert set(drawn["basis.modes"].values.tolist()) <= {2, 3, 4}
+
+
+def test_a_store_that_lost_a_file_does_not_go_on(bouncing: bs.Study, tmp_path: Path) -> None:
+    store = tmp_path / "many.zarr"
+    bouncing.run(store, workers=1)
+    assert bouncing.run(store, workers=1, resume=True).equals(bouncing.run(workers=1))
+    (store / "place" / "c" / "1" / "0").unlink()
+    with pytest.raises(bs.InputError, match="a file of runs that have been made is gone"):
+        bouncing.run(store, workers=1, resume=True)

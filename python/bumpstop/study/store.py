@@ -91,6 +91,10 @@ class ZarrStore:
         with _said(path):
             self._group = zarr.open_group(path, mode="r+")
             self._arrays: dict[str, Any] = {name: self._group[name] for name in layout.arrays}
+            # What is NaN throughout is written, too: a file that is not there has gone.
+            for name, array in self._arrays.items():
+                every = {"write_empty_chunks": name != "message"}
+                self._arrays[name] = array.with_config(every)
 
     def write(self, chunk: int, columns: Mapping[str, NDArray[Any]], kept: Kept) -> None:
         """Keep a chunk: its status last, which says that the chunk is there."""
@@ -103,6 +107,18 @@ class ZarrStore:
         """Return what an array holds."""
         with _said(self._path):
             return np.asarray(self._arrays[name][part])
+
+    def check_whole(self) -> None:
+        """Raise where the file of a chunk that has been made is gone."""
+        made = np.flatnonzero(self.read("status")[:: self._layout.chunk]).tolist()
+        for name, array in self._layout.arrays.items():
+            rest = ["0"] * (len(array.shape) - 1)
+            for chunk in made if name != "message" else ():
+                file = self._path.joinpath(name, "c", str(chunk), *rest)
+                if not file.exists():
+                    what = "is damaged: a file of runs that have been made is gone"
+                    hint = "begin anew in another store, or bring the file back"
+                    raise InputError(what, file=str(file), key="store", hint=hint)
 
 
 def open_zarr_store(
@@ -138,7 +154,9 @@ def open_zarr_store(
         raise InputError("is read-only", file=str(path), key="store")
     for partial in path.rglob(_PARTIAL):
         partial.unlink(missing_ok=True)
-    return ZarrStore(path, layout)
+    store = ZarrStore(path, layout)
+    store.check_whole()
+    return store
 
 
 def read_store(path: Path) -> tuple[dict[str, Any], dict[str, Array], Reader]:
