@@ -101,6 +101,7 @@ def test_errors_go_on_over_the_knots_of_a_table(frequency: float) -> None:
     width, knots = 2.0**-10, 3001
     omega2, damping = float((2 * np.pi * frequency) ** 2), 0.01 * frequency
     values = np.random.default_rng(4).normal(size=knots)
+    times: Array = width * np.arange(knots, dtype=float)
     problem = SeveralStops(
         omega2=np.array([omega2]),
         damping=np.array([damping]),
@@ -108,11 +109,11 @@ def test_errors_go_on_over_the_knots_of_a_table(frequency: float) -> None:
         duration=width * (knots - 1),
         displacement=np.zeros(1),
         velocity=np.zeros(1),
-        loads=(Table(np.ones(1), width * np.arange(knots), values),),
+        loads=(Table(np.ones(1), times, values),),
     )
     history = problem.solve()
     exact = under_straight_lines(omega2, damping, width, values)
-    found = history.project(np.ones(1), width * np.arange(knots), 0)
+    found = history.project(np.ones(1), times, 0)
     bound = history.motion_error
     assert bound is not None
     noise = 8 * np.finfo(float).eps * np.abs(exact).max()
@@ -160,7 +161,7 @@ def test_a_long_slide_on_a_stiff_floor_has_a_bound_that_says_something(
         force=np.array([0.0, -WEIGHT]),
     )
     history = problem.solve()
-    [slips] = history.events()["time"]
+    slips = float(np.array(history.events()["time"]).item())
     start, velocity = (history.motion(np.array([slips]), order)[0] for order in (0, 1))
     times = np.linspace(slips, problem.duration, SAMPLES)
     wanted = np.array([sliding(stiffness, start, velocity, t - slips) for t in times])
