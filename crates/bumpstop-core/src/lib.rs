@@ -8,6 +8,7 @@
 pub mod batch;
 pub mod components;
 mod dynamics;
+mod eigen;
 pub mod energy;
 pub mod error;
 pub mod forcing;

@@ -73,6 +73,60 @@ fn the_lowest_of_a_chain() {
     }
 }
 
+/// A chain with springs of `2^exponent`, in the units of bars of steel, say, or of atoms.
+fn scaled_chain(size: usize, exponent: i32) -> Pencil {
+    let scale = 2.0f64.powi(exponent);
+    let stiffness = move |r: usize, c: usize| match r.abs_diff(c) {
+        0 if r == size - 1 => scale,
+        0 => 2.0 * scale,
+        1 => -scale,
+        _ => 0.0,
+    };
+    let mass = |r: usize, c: usize| f64::from(u8::from(r == c));
+    Pencil::new(&sparse(size, stiffness, 1), &sparse(size, mass, 0)).unwrap()
+}
+
+#[test]
+fn all_modes_of_many_dofs_in_any_units() {
+    for (size, exponent) in [(130, 40), (200, -60), (600, 36), (130, 60)] {
+        let scale = 2.0f64.powi(exponent);
+        let stiffness = Mat::from_fn(size, size, |r, c| match r.abs_diff(c) {
+            0 if r == size - 1 => scale,
+            0 => 2.0 * scale,
+            1 => -scale,
+            _ => 0.0,
+        });
+        let mass = Mat::<f64>::identity(size, size);
+        let found = symmetric_modes(stiffness.as_ref(), mass.as_ref(), size).unwrap();
+        let condition = 4.0 / chain_omega2(size, 0);
+        for (j, omega2) in found.omega2.iter().enumerate() {
+            let ratio = omega2 / scale / chain_omega2(size, j);
+            assert!(
+                (ratio - 1.0).abs() < 1e-15 * condition,
+                "{size} {j} {ratio}"
+            );
+        }
+        let unit = found.shapes.transpose() * &found.shapes;
+        let rounding = 1e-14 / lowest;
+        assert!(
+            (unit - Mat::<f64>::identity(size, size)).norm_max() < rounding,
+            "{size}"
+        );
+    }
+}
+
+#[test]
+fn a_hundred_modes_in_any_units() {
+    let size = 1000;
+    for exponent in [-60, 40, 80] {
+        let pencil = scaled_chain(size, exponent);
+        let found = selected_modes(&pencil, none(size).as_ref(), Selection::Lowest(100)).unwrap();
+        let scale = 2.0f64.powi(exponent);
+        let expected: Vec<f64> = (0..100).map(|j| scale * chain_omega2(size, j)).collect();
+        check_modes(&found, &expected);
+    }
+}
+
 #[test]
 fn a_band_and_the_neighbours_of_a_shift() {
     let size = 1500;

@@ -1,6 +1,7 @@
 //! Natural modes of small structures: the dense symmetric eigenproblem `K x = omega^2 M x`.
 
 use super::Modes;
+use crate::eigen::{SymmetricEigen, symmetric_eigen};
 use crate::error::{Error, Result};
 use faer::{Mat, MatRef, Side, prelude::*};
 
@@ -56,11 +57,10 @@ fn generalised(a: MatRef<f64>, b: MatRef<f64>) -> Result<Option<(Vec<f64>, Mat<f
     let mut reduced = half.transpose().to_owned();
     lower.solve_lower_triangular_in_place(reduced.as_mut());
     let symmetric = Scale(0.5) * (&reduced + reduced.transpose());
-    let eigen = symmetric
-        .self_adjoint_eigen(Side::Lower)
-        .map_err(|_| Error::Eigenvalues)?;
-    let values = eigen.S().column_vector().iter().copied().collect();
-    let mut shapes = eigen.U().to_owned();
+    let SymmetricEigen {
+        values,
+        vectors: mut shapes,
+    } = symmetric_eigen(&symmetric)?;
     lower
         .transpose()
         .solve_upper_triangular_in_place(shapes.as_mut());

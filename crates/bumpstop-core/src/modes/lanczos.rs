@@ -12,9 +12,10 @@
 
 use super::factor::Factor;
 use super::pencil::Pencil;
+use crate::eigen::{SymmetricEigen, symmetric_eigen};
 use crate::error::{Error, Result};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par, Side};
+use faer::{Accum, Mat, MatRef, Par};
 
 /// Vectors that go through the factor together.
 const BLOCK: usize = 8;
@@ -211,13 +212,10 @@ impl<'a> Lanczos<'a> {
         let symmetric = Mat::from_fn(self.done, self.done, |r, c| {
             0.5 * (projected[(r, c)] + projected[(c, r)])
         });
-        let eigen = symmetric
-            .self_adjoint_eigen(Side::Lower)
-            .map_err(|_| Error::Eigenvalues)?;
-        let vectors = eigen.U().to_owned();
+        let SymmetricEigen { values, vectors } = symmetric_eigen(&symmetric)?;
         let outside = &self.coupling * &vectors;
         Ok(Ritz {
-            theta: eigen.S().column_vector().iter().copied().collect(),
+            theta: values,
             residual: (0..self.done).map(|c| outside.col(c).norm_l2()).collect(),
             vectors,
         })

@@ -1,8 +1,9 @@
 //! The directions along which rigid stops push.
 
+use crate::eigen::symmetric_eigen;
 use crate::law::{Law, State};
 use crate::problem::Problem;
-use faer::{Mat, Side};
+use faer::Mat;
 
 /// Below this part of the largest eigenvalue of `R R'` rows depend on each other.
 const DEPENDENT: f64 = 1e-12;
@@ -85,10 +86,10 @@ impl<'a> Directions<'a> {
             let alone = |change: &f64| change / delassus[(0, 0)];
             return change.iter().map(alone).collect();
         }
-        let Ok(eigen) = delassus.self_adjoint_eigen(Side::Lower) else {
+        let Ok(eigen) = symmetric_eigen(&delassus) else {
             return vec![f64::NAN; n];
         };
-        let (vectors, values) = (eigen.U(), eigen.S());
+        let (vectors, values) = (eigen.vectors, eigen.values);
         let largest = values[n - 1];
         let mut impulses = vec![0.0; n];
         for k in (0..n).filter(|&k| values[k] > DEPENDENT * largest) {

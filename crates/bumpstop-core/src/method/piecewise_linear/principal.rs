@@ -5,8 +5,9 @@
 //! are orthonormal, and how far they are from it tells what damping and circulatory forces do.
 
 use super::coupled::Coupled;
-use crate::error::{Error, Result};
-use faer::{Mat, Side, c64};
+use crate::eigen::{SymmetricEigen, symmetric_eigen, symmetric_eigenvalues};
+use crate::error::Result;
+use faer::{Mat, c64};
 
 /// The least eigenvalue of a stiffness scaled to a diagonal of ones for which the groups' own
 /// coordinates are kept: axes of the stiffness are good to rounding of its largest eigenvalue,
@@ -96,7 +97,7 @@ fn is_well_scaled(stiffness: &Mat<f64>) -> Result<bool> {
             let size = unit(stiffness[(r, r)]) * unit(stiffness[(c, c)]);
             0.5 * (stiffness[(r, c)] + stiffness[(c, r)]) / size
         });
-        (symmetric.self_adjoint_eigenvalues(Side::Lower)).map_err(|_| Error::Eigenvalues)
+        symmetric_eigenvalues(&symmetric)
     };
     let [scaled, squares] = [values(f64::sqrt)?, values(|_| 1.0)?];
     let apart = |pair: &[f64]| pair[1] - pair[0] > APART * pair[1];
@@ -108,11 +109,13 @@ fn on_axes(stiffness: &Mat<f64>) -> Result<(Mat<f64>, Mat<f64>)> {
     let n = stiffness.nrows();
     let symmetric = Mat::from_fn(n, n, |r, c| 0.5 * (stiffness[(r, c)] + stiffness[(c, r)]));
     let skew = Mat::from_fn(n, n, |r, c| 0.5 * (stiffness[(r, c)] - stiffness[(c, r)]));
-    let eigen = (symmetric.self_adjoint_eigen(Side::Lower)).map_err(|_| Error::Eigenvalues)?;
-    let axes = eigen.U().to_owned();
+    let SymmetricEigen {
+        values,
+        vectors: axes,
+    } = symmetric_eigen(&symmetric)?;
     let mut turned = axes.transpose() * skew * &axes;
     for i in 0..n {
-        turned[(i, i)] += eigen.S()[i];
+        turned[(i, i)] += values[i];
     }
     Ok((axes, turned))
 }

@@ -7,7 +7,8 @@
 //! sections 7.3 and 7.6). Left vectors are the rows of the inverse of all of them together.
 
 use super::cluster::MOST;
-use crate::error::{Error, Result};
+use crate::eigen::{GeneralEigen, general_eigen};
+use crate::error::Result;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
@@ -99,16 +100,17 @@ pub(crate) fn split(matrix: &Mat<f64>, slow: f64) -> Result<Split> {
 
 impl Sets {
     fn new(matrix: &Mat<f64>, slow: f64) -> Result<Self> {
-        let eigen = matrix.eigen().map_err(|_| Error::Eigenvalues)?;
+        let GeneralEigen {
+            values,
+            mut vectors,
+        } = general_eigen(matrix)?;
         let count = matrix.nrows();
-        let mut vectors = eigen.U().to_owned();
         for j in 0..count {
             let size = vectors.col(j).norm_l2();
             for i in 0..count {
                 vectors[(i, j)] /= size;
             }
         }
-        let values: Vec<c64> = (0..count).map(|j| eigen.S()[j]).collect();
         let mut sets = Self {
             label: (0..count).collect(),
             conjugate: conjugates(&values),

@@ -12,12 +12,13 @@ use super::rows::{ComplexBlock, set_entry};
 use super::signal::Signal;
 use super::spectrum::Spectrum;
 use super::view::View;
+use crate::eigen::symmetric_eigen;
 use crate::forcing::Forcing;
 use crate::law::{Affine, COORDINATES, Law, Piece, Power};
 use crate::number::{Complex, Instructions};
 use crate::problem::Problem;
 use crate::system::{Coupling, ModalSystem};
-use faer::{Mat, Side};
+use faer::Mat;
 use std::cell::OnceCell;
 
 /// Energies since the start of a phase, in J.
@@ -124,11 +125,11 @@ fn dampers(system: &ModalSystem) -> Vec<Damper> {
             let own = if r == c { system.damping()[row] } else { 0.0 };
             own + 0.5 * (coupling.at(row, column) + coupling.at(column, row))
         });
-        if let Ok(eigen) = symmetric.self_adjoint_eigen(Side::Lower) {
+        if let Ok(eigen) = symmetric_eigen(&symmetric) {
             dampers.extend((0..coupled.len()).map(|k| {
-                let weights = (0..coupled.len()).map(|i| (coupled[i], eigen.U()[(i, k)]));
+                let weights = (0..coupled.len()).map(|i| (coupled[i], eigen.vectors[(i, k)]));
                 Damper {
-                    constant: eigen.S()[k],
+                    constant: eigen.values[k],
                     row: along(&weights.collect::<Vec<_>>()),
                 }
             }));

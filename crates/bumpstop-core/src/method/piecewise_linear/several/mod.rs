@@ -20,8 +20,9 @@ mod search;
 pub(crate) use neighbour::Neighbour;
 
 use super::rows::{ComplexBlock, Rows, entry};
+use crate::eigen::symmetric_eigen;
 use crate::number::{Complex, LANES, dispatch};
-use faer::{Mat, Side};
+use faer::Mat;
 use search::Search;
 
 /// Springs whose products are summed together.
@@ -133,8 +134,8 @@ impl Springs {
             }
             stiffness[(r, r)] += self.omega2[r];
         }
-        let eigen = stiffness.self_adjoint_eigen(Side::Lower).ok()?;
-        let (values, axes) = (eigen.S(), eigen.U());
+        let eigen = symmetric_eigen(&stiffness).ok()?;
+        let (values, axes) = (eigen.values, eigen.vectors);
         let mut seen = vec![0.0; self.stride];
         let mut starts = Vec::with_capacity(n);
         for j in 0..n {

@@ -1,7 +1,8 @@
 //! The equations of all modes between two switches.
 
 use super::residual::{Class, ClusterResidual, Residual, Sum};
-use crate::error::{Error, Result};
+use crate::eigen::{symmetric_eigen, symmetric_eigenvalues};
+use crate::error::Result;
 use crate::law::{Law, State};
 use crate::method::piecewise_linear::coupled::Coupled;
 use crate::method::piecewise_linear::held::DEPENDENT;
@@ -14,7 +15,7 @@ use crate::method::piecewise_linear::view::View;
 use crate::number::{Complex, Plain};
 use crate::problem::Problem;
 use crate::rigid::Directions;
-use faer::{Mat, Side};
+use faer::Mat;
 
 /// The equations of all modes in one combination of law states, and what the exponents of the
 /// spectrum leave of them.
@@ -48,12 +49,8 @@ impl Equations {
         let n = modes.len();
         let symmetric =
             |matrix: &Mat<f64>| Mat::from_fn(n, n, |r, c| 0.5 * (matrix[(r, c)] + matrix[(c, r)]));
-        let eigen = symmetric(&coupled.stiffness)
-            .self_adjoint_eigen(Side::Lower)
-            .map_err(|_| Error::Eigenvalues)?;
-        let dampers = symmetric(&coupled.damping)
-            .self_adjoint_eigenvalues(Side::Lower)
-            .map_err(|_| Error::Eigenvalues)?;
+        let eigen = symmetric_eigen(&symmetric(&coupled.stiffness))?;
+        let dampers = symmetric_eigenvalues(&symmetric(&coupled.damping))?;
         let views = unit_views(spectrum, n);
         let solved: Vec<bool> = views.iter().map(|v| is_solved(spectrum, v)).collect();
         let held = held_directions(problem, phases.states(phase));
@@ -66,8 +63,8 @@ impl Equations {
         Ok(Self {
             classes: residual.classes(problem, spectrum, &views, &clusters),
             clusters,
-            stiffness: (0..n).map(|k| eigen.S()[k]).collect(),
-            directions: eigen.U().to_owned(),
+            stiffness: eigen.values,
+            directions: eigen.vectors,
             pumping: dampers.iter().fold(0.0f64, |most, c| most.max(-c)),
             coupled,
             views,
