@@ -181,6 +181,15 @@ def test_what_cannot_be_finished_is_said() -> None:
         )
 
 
+@pytest.mark.parametrize("stiffness", [-1e7, -1e9])
+def test_growth_beyond_all_numbers_is_said(stiffness: float) -> None:
+    """The certified walk ends there; it used to halve its cells for ever."""
+    spring = bs.SpringLaw("pull", node="P", direction=(1, 0, 0), stiffness=(stiffness,))
+    growing = problem(laws=[*problem().laws, spring], duration=2.0)
+    with pytest.raises(bs.ComputationError, match="grew beyond all bounds at t = "):
+        bs.simulate(growing, "exact")
+
+
 def test_progress_is_told_between_0_and_1() -> None:
     seen: list[float] = []
     long = problem(duration=20.0)

@@ -66,7 +66,7 @@ use crate::rigid::{Cause, Contacts, Place};
 use advance::{Certificate, Crossing, Path, Walk};
 use curved::{CurvedGuards, Guards};
 use event::Watch;
-use phase::{Phases, Workspace};
+use phase::{Phase, Phases, Workspace};
 use recent::Recent;
 use response::Stretch;
 use spectrum::{Secular, Spectrum, Workbench};
@@ -78,6 +78,10 @@ pub const NAME: &str = "exact";
 
 /// Switches of each law at one instant after which the run is given up.
 const MOST_SWITCHES_AT_ONCE: usize = 32;
+
+/// Displacements and velocities beyond which a motion that grows is given up: their squares are
+/// numbers still.
+const LARGEST_MOTION: f64 = 1e130;
 
 /// How often the observer is asked, in phases.
 const PHASES_BETWEEN_OBSERVATIONS: usize = 64;
@@ -192,6 +196,7 @@ impl<'a, L: Law> Run<'a, L> {
                 problem,
                 states: &states,
             };
+            let end = problem.duration.min(knot) - time;
             let path = Path {
                 phases: &self.phases,
                 phase,
@@ -202,12 +207,15 @@ impl<'a, L: Law> Run<'a, L> {
                 },
                 starts: &self.scratch.watch.starts,
                 from: 0.0,
-                limit: problem.duration.min(knot) - time,
+                limit: end.min(self.until_overflow(phase, &q, &v)),
             };
             let limit = path.limit;
             let crossing = (self.scratch.walk).first_zero::<I>(path, &mut self.certificate);
             self.phases.end(crossing.as_ref().map_or(limit, |c| c.time));
             let Some(crossing) = crossing else {
+                if limit < end {
+                    return Err(Error::Overflow { time: time + limit });
+                }
                 if knot >= problem.duration {
                     (self.scratch.displacement, self.scratch.velocity) = (q, v);
                     return Ok(());
@@ -247,6 +255,19 @@ impl<'a, L: Law> Run<'a, L> {
                 (self.contacts).see_phase(problem, &self.scratch.watch, crossing.time);
                 self.meet(cause, time, &q, &mut v, &mut states)?;
             }
+        }
+    }
+
+    /// For how long a phase that begins like this stays within numbers: beyond, the walk would
+    /// halve its cells without end.
+    #[inline(always)]
+    fn until_overflow(&self, phase: Phase, q: &[f64], v: &[f64]) -> f64 {
+        let growth = self.phases.spectra[phase.spectrum].growth;
+        if growth > 0.0 {
+            let largest = q.iter().chain(v).fold(1.0f64, |most, x| most.max(x.abs()));
+            (LARGEST_MOTION / largest).ln().max(0.0) / growth
+        } else {
+            f64::INFINITY
         }
     }
 

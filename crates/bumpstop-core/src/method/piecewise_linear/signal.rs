@@ -129,7 +129,7 @@ impl Signal {
         self.totals = [sums[0], sums[1], sums[2]];
         self.at_start = [sums[3], sums[4], sums[5]];
         self.growth = Growth::default();
-        if spectrum.grows {
+        if spectrum.growth > 0.0 {
             self.measure_growth(spectrum);
         }
         self.clustered.set(&spectrum.clusters, views, function);

@@ -70,8 +70,8 @@ pub(crate) struct Spectrum {
     pub(super) groups_are_modes: bool,
     /// How each local coordinate sees the motion, in the order of laws and their rows.
     pub views: Vec<View>,
-    /// Whether some exponent grows.
-    pub grows: bool,
+    /// How fast the exponent grows that grows fastest, in 1/s; zero where none does.
+    pub growth: f64,
     /// Largest modulus of an exponent.
     pub fastest: f64,
     /// Whether the coupled part came from the secular equation.
@@ -406,7 +406,7 @@ impl Spectrum {
             growth = growth.max(lambda.re);
         }
         self.fastest = largest(fastest);
-        self.grows = largest(growth) > 0.0;
+        self.growth = largest(growth);
     }
 
     /// `exp(lambda t)` for all exponents.

@@ -2,6 +2,7 @@
 
 use super::equations::Equations;
 use super::residual::rounding;
+use crate::eigen::{GeneralEigen, general_eigen};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
@@ -63,9 +64,11 @@ impl StateMatrix {
             };
             self.matrix[(row, column)] - spring
         });
-        let eigen = held.eigen().ok()?;
-        let exponents: Vec<c64> = (0..2 * n).map(|j| eigen.S()[j]).collect();
-        let vectors = with_unit_columns(&eigen.U().to_owned());
+        let GeneralEigen {
+            values: exponents,
+            vectors,
+        } = general_eigen(&held).ok()?;
+        let vectors = with_unit_columns(&vectors);
         let spread = vectors.singular_values().ok()?;
         let (most, computed) = (*spread.first()?, *spread.last()?);
         let least = computed - rounding(2 * n) * most;
