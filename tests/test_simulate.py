@@ -1,4 +1,6 @@
 import math
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -188,6 +190,32 @@ def test_growth_beyond_all_numbers_is_said(stiffness: float) -> None:
     growing = problem(laws=[*problem().laws, spring], duration=2.0)
     with pytest.raises(bs.ComputationError, match="grew beyond all bounds at t = "):
         bs.simulate(growing, "exact")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of memory are Linux's")
+def test_steps_that_fill_the_memory_are_said() -> None:
+    """A process with little memory left is told so, not ended."""
+    source = """
+import resource
+import bumpstop as bs
+basis = bs.ModalBasis.from_modes(frequency=[3.0], shapes={("P", "dx"): [1.0]})
+damper = bs.ZenerDamper("d", node="P", direction=(1, 0, 0), series_stiffness=1e9,
+    branch_stiffness=1e9, damping=1e-3, exponent=1.0)
+start = bs.ModalState(velocity=[1.0])
+def run(duration):
+    bs.simulate(bs.Problem(basis, laws=[damper], initial=start, duration=duration), "dop853")
+run(1e-11)
+used = 4096 * int(open("/proc/self/statm").read().split()[0])
+resource.setrlimit(resource.RLIMIT_AS, (used + 2**26, -1))
+try:
+    run(1.0)
+except bs.ComputationError as error:
+    print(error)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", source], capture_output=True, text=True, check=False, timeout=300
+    )
+    assert "fill the memory" in done.stdout, done.stderr
 
 
 def test_progress_is_told_between_0_and_1() -> None:

@@ -253,7 +253,7 @@ pub enum Error {
     },
     /// The steps of a run do not fit in memory.
     #[error(
-        "the steps up to t = {time:e} s fill the 4 GiB that a run may take; take a larger tolerance or step, or a shorter run"
+        "the steps up to t = {time:e} s fill the memory, or the 4 GiB of it that a run may take; take a larger tolerance or step, or a shorter run"
     )]
     LongRecord {
         /// Instant reached, in s.

@@ -90,9 +90,8 @@ impl PolynomialRecord {
         dense: Dense<'_>,
         states: &[State],
     ) -> Result<()> {
-        if (self.rows.len() + dense.rows.len()) * size_of::<f64>() > LARGEST_RECORD {
-            return Err(Error::LongRecord { time: start });
-        }
+        self.make_room(dense.rows.len())
+            .ok_or(Error::LongRecord { time: start })?;
         let before = self.list.last().map(|step| step.states);
         let states_at = match before.filter(|at| &self.states[*at..] == states) {
             Some(known) => known,
@@ -109,6 +108,21 @@ impl PolynomialRecord {
             states: states_at,
         });
         Ok(())
+    }
+
+    /// Makes room for the numbers of one more step, twice as much as there was, up to the largest
+    /// record; `None` where that or the memory does not suffice.
+    fn make_room(&mut self, more: usize) -> Option<()> {
+        let (length, capacity) = (self.rows.len(), self.rows.capacity());
+        let most = (LARGEST_RECORD / size_of::<f64>()).checked_sub(length)?;
+        if more > most {
+            return None;
+        }
+        if length + more > capacity {
+            let room = capacity.max(more).min(most);
+            self.rows.try_reserve_exact(room).ok()?;
+        }
+        Some(())
     }
 
     /// How many steps there are.
