@@ -19,14 +19,21 @@ if TYPE_CHECKING:
     from bumpstop.io.meshes import read_mesh
     from bumpstop.io.modes import identify_modes, read_modes
     from bumpstop.io.stored import read_netcdf, read_results
+    from bumpstop.laws.buckling_stop import BucklingStop
     from bumpstop.laws.circle_stop import CircleStop
+    from bumpstop.laws.damper import DamperLaw
+    from bumpstop.laws.force_relation import ForceRelation
     from bumpstop.laws.friction import Friction
+    from bumpstop.laws.hardening_spring import HardeningSpring
     from bumpstop.laws.hertz_stop import HertzStop
+    from bumpstop.laws.outside_program import OutsideProgram
     from bumpstop.laws.plane_stop import PlaneStop
     from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
+    from bumpstop.laws.seismic_device import SeismicDevice
     from bumpstop.laws.spring import SpringLaw
     from bumpstop.laws.stop import Stop
+    from bumpstop.laws.user_law import UserLaw
     from bumpstop.laws.zener_damper import ZenerDamper
     from bumpstop.loads.accelerogram import Accelerogram
     from bumpstop.loads.base_motion import BaseMotion
@@ -128,6 +135,7 @@ __all__ = [
     "BaseMotion",
     "Beam",
     "Bearing",
+    "BucklingStop",
     "BumpstopError",
     "Campbell",
     "Case",
@@ -138,16 +146,19 @@ __all__ = [
     "ComputationError",
     "ContactStatistics",
     "Convergence",
+    "DamperLaw",
     "Distribution",
     "EdfWear",
     "Expression",
     "FlatScar",
+    "ForceRelation",
     "FrequencyResponse",
     "Friction",
     "FullModel",
     "Gauge",
     "GeneralSection",
     "Gravity",
+    "HardeningSpring",
     "Harmonic",
     "HertzStop",
     "HoleScar",
@@ -168,6 +179,7 @@ __all__ = [
     "NodalForce",
     "NodalState",
     "Output",
+    "OutsideProgram",
     "PadScar",
     "Participation",
     "Periodicity",
@@ -193,6 +205,7 @@ __all__ = [
     "Rotation",
     "Sampling",
     "Section",
+    "SeismicDevice",
     "SignalStatistics",
     "SpectralDensity",
     "Spring",
@@ -211,6 +224,7 @@ __all__ = [
     "TimeTable",
     "Tube",
     "Turbulence",
+    "UserLaw",
     "Values",
     "WearWork",
     "WorstCase",
@@ -268,6 +282,7 @@ _HOME = {
     "BaseMotion": "loads.base_motion",
     "Beam": "structure.beam",
     "Bearing": "structure.bearing",
+    "BucklingStop": "laws.buckling_stop",
     "BumpstopError": "errors",
     "Campbell": "modal.rotor",
     "Case": "io.case",
@@ -278,16 +293,19 @@ _HOME = {
     "ComputationError": "errors",
     "ContactStatistics": "post.statistics",
     "Convergence": "study.convergence",
+    "DamperLaw": "laws.damper",
     "Distribution": "study.parameters",
     "EdfWear": "post.wear",
     "Expression": "loads.expression",
     "FlatScar": "post.scars",
+    "ForceRelation": "laws.force_relation",
     "FrequencyResponse": "modal.frequency_response",
     "FullModel": "modal.full",
     "Friction": "laws.friction",
     "Gauge": "structure.gauge",
     "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
+    "HardeningSpring": "laws.hardening_spring",
     "Harmonic": "loads.time",
     "HertzStop": "laws.hertz_stop",
     "HoleScar": "post.scars",
@@ -308,6 +326,7 @@ _HOME = {
     "NodalForce": "loads.force",
     "NodalState": "loads.nodal_state",
     "Output": "study.outputs",
+    "OutsideProgram": "laws.outside_program",
     "PadScar": "post.scars",
     "Participation": "modal.masses",
     "Periodicity": "post.poincare",
@@ -333,6 +352,7 @@ _HOME = {
     "Rotation": "modal.substructure.rotation",
     "Sampling": "study.sampling",
     "Section": "structure.sections.section",
+    "SeismicDevice": "laws.seismic_device",
     "SignalStatistics": "post.streams",
     "SpectralDensity": "loads.density",
     "Spring": "structure.spring",
@@ -351,6 +371,7 @@ _HOME = {
     "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
     "Turbulence": "loads.turbulence",
+    "UserLaw": "laws.user_law",
     "Values": "study.parameters",
     "WearWork": "post.wear",
     "WorstCase": "study.worst",

@@ -150,6 +150,76 @@ class Spring:
     ) -> None:
         """Take the stiffness of each segment between breaks, and the force at the origin."""
 
+class Damper:
+    """A multilinear damper of elongation ``row . q``."""
+
+    def __init__(self, row: Array, breaks: Array, damping: Array, offset: float) -> None:
+        """Take the damping of each segment between speeds, and the force at rest."""
+
+class ForceRelation:
+    """A force along ``row . q`` that is a formula of its position and velocity."""
+
+    def __init__(self, row: Array, program: list[float | str]) -> None:
+        """Take the words of the formula in the order of a machine with a stack."""
+    def force(self, position: Array, velocity: Array) -> Array:
+        """Return forces (n,) in N for positions in m and velocities in m/s."""
+
+class SeismicDevice:
+    """A spring that softens beyond a threshold, with a damper, of elongation ``row . q``."""
+
+    def __init__(
+        self,
+        row: Array,
+        first_stiffness: float,
+        second_stiffness: float,
+        threshold: float,
+        damping: float,
+        exponent: float,
+        stroke: float,
+        rest_speed: float,
+    ) -> None: ...
+
+class HardeningSpring:
+    """An elastic-plastic spring of elongation ``row . q``."""
+
+    def __init__(self, row: Array, points: list[tuple[float, float]], kinematic: bool) -> None:
+        """Take elongations and tensions of a first pull, the elastic limit first."""
+
+class BucklingStop:
+    """A stop that buckles."""
+
+    def __init__(
+        self,
+        elastic: Stop,
+        critical_force: float,
+        post_force: float,
+        plateau: float,
+        fall: float,
+        post_damping: float,
+        unloading: list[tuple[float, float]],
+    ) -> None:
+        """Take the stop before, and residual crushings with their unloading stiffness."""
+
+class UserLaw:
+    """A law that Python functions answer for."""
+
+    def __init__(
+        self,
+        name: str,
+        rows: list[Array],
+        force: Callable[..., Array],
+        slopes: Callable[..., Array] | None,
+        memory_rate: Callable[..., Array] | None,
+        start: float,
+    ) -> None:
+        """Take functions of positions, velocities, time and memory, which return flat arrays."""
+
+class OutsideProgram:
+    """A program that a Python function asks once a step."""
+
+    def __init__(self, name: str, rows: list[Array], exchange: Callable[..., Array]) -> None:
+        """Take a function of the step's number, positions and velocities."""
+
 class HertzStop:
     """A stop at distance ``d = gap + row . q`` whose force is a power of its depth."""
 
@@ -199,7 +269,22 @@ class ShapedStop:
     ) -> None:
         """Friction is (static coefficient, dynamic coefficient, stiffness, damping)."""
 
-Law = Stop | RigidStop | FrictionStop | Spring | HertzStop | ZenerDamper | ShapedStop
+Law = (
+    Stop
+    | RigidStop
+    | FrictionStop
+    | Spring
+    | HertzStop
+    | ZenerDamper
+    | ShapedStop
+    | Damper
+    | ForceRelation
+    | SeismicDevice
+    | HardeningSpring
+    | BucklingStop
+    | UserLaw
+    | OutsideProgram
+)
 
 class History:
     """What a run leaves behind; it can be sampled anywhere in [0, duration]."""

@@ -23,6 +23,18 @@ if TYPE_CHECKING:
 __all__ = ["continued"]
 
 _FREE = ("open", "released")
+_FORGETFUL = (
+    "CircleStop",
+    "DamperLaw",
+    "ForceRelation",
+    "HertzStop",
+    "PlaneStop",
+    "PolarStop",
+    "RigidStop",
+    "SpringLaw",
+    "Stop",
+)
+"""Laws whose state follows from the motion, but for friction."""
 
 
 class _InMotion(ModalState):
@@ -87,19 +99,10 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
 
 def _refuse_memory(response: Response, law: Law, instant: float) -> None:
     """Raise where a law remembers what the state of the modes does not tell."""
-    from bumpstop.laws import (
-        CircleStop,
-        HertzStop,
-        PlaneStop,
-        PolarStop,
-        RigidStop,
-        SpringLaw,
-        Stop,
-    )
+    from bumpstop import laws as known
 
     # By exact kind: what is made of these may remember more.
-    known = (CircleStop, HertzStop, PlaneStop, PolarStop, RigidStop, SpringLaw, Stop)
-    if type(law) not in known:
+    if type(law) not in {getattr(known, name) for name in _FORGETFUL}:
         what = "remembers more than the motion tells, and a new run would forget it"
         raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
     if getattr(law, "friction", None) is None:

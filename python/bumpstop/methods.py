@@ -34,7 +34,7 @@ class Range(NamedTuple):
 
 
 EXPLICIT_METHODS = ("symplectic_euler", "central_difference")
-"""Marches that keep displacements alone; they take laws of straight pieces."""
+"""Marches that keep displacements alone."""
 PARAMETERS: dict[str, dict[str, Range]] = {
     "newmark": {"beta": Range(0.0, 1.0), "gamma": Range(0.5, 1.0)},
     "hht": {"alpha": Range(-1.0 / 3.0, 0.0)},
@@ -72,6 +72,7 @@ def check_method(method: str, problem: Problem) -> None:
     _refuse_full_model(method, problem)
     _refuse_coupled_modes(method, problem)
     _refuse_rigid_stops(method, problem)
+    _refuse_stepped_laws(method, problem)
     _refuse_smooth_laws(method, problem)
 
 
@@ -151,8 +152,19 @@ def _refuse_rigid_stops(method: str, problem: Problem) -> None:
                 )
 
 
+def _refuse_stepped_laws(method: str, problem: Problem) -> None:
+    """Raise where a program outside is to be asked once a step, by a method that asks more."""
+    if method == "symplectic_euler":
+        return
+    for law in problem.laws:
+        if getattr(law, "stepped", False):
+            what = f"does not take {law.name!r}: {smoothness(law)}, once a step"
+            hint = "symplectic_euler with a step dt does"
+            raise InputError(what, key="method", value=method, hint=hint)
+
+
 def _refuse_smooth_laws(method: str, problem: Problem) -> None:
-    """Raise for a method that asks laws for matrices where one has none.
+    """Raise for the exact method, which asks laws for matrices, where one has none.
 
     Schemes for equations of motion refuse laws with rate equations of their own.
     """
@@ -160,7 +172,7 @@ def _refuse_smooth_laws(method: str, problem: Problem) -> None:
         return
     for law in problem.laws:
         reason = smoothness(law)
-        if reason and (method not in ONE_STEP_METHODS or getattr(law, "flows", False)):
+        if reason and (method == "exact" or getattr(law, "flows", False)):
             what = f"does not take {law.name!r}: {reason}"
             hint = f"{', '.join(ADAPTIVE_METHODS)} do"
             raise InputError(what, key="method", value=method, hint=hint)

@@ -123,5 +123,5 @@ def _of_law(law: Law, row: FloatArray, stiffest: float) -> Iterator[_Finding]:
         what = "is {:.2g} times that of the stiffest mode there"
         yield _Finding(f"{where}.stiffness", stiffness, own / stiffest, STIFFEST, what, hint)
     if damping is not None and (own or stiffest):
-        ratio = damping * yields / float(np.sqrt(max(own, stiffest)))
+        ratio = float(np.max(damping)) * yields / float(np.sqrt(max(own, stiffest)))
         yield _Finding(f"{where}.damping", damping, ratio, MOST_DAMPED, CRITICAL, hint)

@@ -223,6 +223,24 @@ pub enum Error {
         /// The law.
         law: usize,
     },
+    /// A law that is to be asked once a step was given to a method that asks otherwise.
+    #[error(
+        "the {method} method does not take law {law} (counted from 0), which is asked once a step, in order; symplectic_euler does"
+    )]
+    Stepped {
+        /// The method.
+        method: &'static str,
+        /// The law.
+        law: usize,
+    },
+    /// Somebody outside told no force.
+    #[error("law {law} (counted from 0) told no force in the step from t = {time:e} s on")]
+    NoAnswer {
+        /// Start of the step, in s.
+        time: f64,
+        /// The law.
+        law: usize,
+    },
     /// No force of a law was found that agrees with the motion at the end of a step.
     #[error(
         "no force of law {law} (counted from 0) agrees with the motion at t = {time:e} s; take a smaller step"

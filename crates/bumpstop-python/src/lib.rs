@@ -1,12 +1,14 @@
 //! Python bindings of the core: convert, release the GIL, call, convert back.
 
 mod batch;
+mod formula;
 mod full;
 mod history;
 mod modes;
 mod parts;
 mod simulate;
 mod sparse;
+mod user;
 
 use bumpstop_core::error::Error;
 use pyo3::exceptions::PyException;
@@ -34,12 +36,19 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<parts::FrictionStop>()?;
     module.add_class::<parts::Spring>()?;
     module.add_class::<parts::Forcing>()?;
+    module.add_class::<parts::Damper>()?;
+    module.add_class::<parts::ForceRelation>()?;
     module.add_class::<parts::RigidStop>()?;
     module.add_class::<parts::HertzStop>()?;
     module.add_class::<parts::ZenerDamper>()?;
     module.add_class::<parts::Shape>()?;
     module.add_class::<parts::ShapedStop>()?;
     module.add_class::<full::FullProblem>()?;
+    module.add_class::<parts::SeismicDevice>()?;
+    module.add_class::<parts::HardeningSpring>()?;
+    module.add_class::<parts::BucklingStop>()?;
+    module.add_class::<user::UserLaw>()?;
+    module.add_class::<user::OutsideProgram>()?;
     module.add_class::<history::History>()?;
     module.add_class::<batch::Quantity>()?;
     module.add_class::<sparse::SparseFactor>()?;

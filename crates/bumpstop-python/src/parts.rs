@@ -1,6 +1,8 @@
 //! What a problem is made of.
 
 use crate::core_error;
+use crate::formula::Word;
+use crate::user::{OutsideProgram, UserLaw};
 use bumpstop_core::error::Result;
 use bumpstop_core::forcing::{self, Beyond, Table};
 use bumpstop_core::{law, obstacle, system};
@@ -172,6 +174,56 @@ impl Spring {
     }
 }
 
+/// A multilinear damper of elongation `row . q`.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct Damper(pub law::Damper);
+
+#[pymethods]
+impl Damper {
+    #[new]
+    fn new(
+        row: PyReadonlyArray1<f64>,
+        breaks: PyReadonlyArray1<f64>,
+        damping: PyReadonlyArray1<f64>,
+        offset: f64,
+    ) -> PyResult<Self> {
+        let (breaks, damping) = (values(&breaks), values(&damping));
+        law::Damper::new(values(&row), breaks, &damping, offset)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
+/// A force along the coordinate `row . q` that is a formula of its position and velocity.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct ForceRelation(pub law::ForceRelation);
+
+#[pymethods]
+impl ForceRelation {
+    /// The program is a list of numbers and of names, as the machine takes them one by one.
+    #[new]
+    #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+    fn new(row: PyReadonlyArray1<f64>, program: Vec<Word>) -> PyResult<Self> {
+        let operations: PyResult<_> = program.iter().map(Word::operation).collect();
+        law::Formula::new(operations?)
+            .and_then(|formula| law::ForceRelation::new(values(&row), formula))
+            .map(Self)
+            .map_err(core_error)
+    }
+
+    /// The force for positions and velocities.
+    fn force<'py>(
+        &self,
+        py: Python<'py>,
+        position: PyReadonlyArray1<f64>,
+        velocity: PyReadonlyArray1<f64>,
+    ) -> Bound<'py, PyArray1<f64>> {
+        let both = values(&position).into_iter().zip(values(&velocity));
+        let forces: Vec<f64> = both.map(|(x, v)| self.0.force_at(x, v)).collect();
+        forces.into_pyarray(py)
+    }
+}
+
 /// A rigid obstacle at distance `d = gap + row . q`.
 #[pyclass(frozen, module = "bumpstop._core")]
 pub struct RigidStop(pub law::RigidStop);
@@ -310,16 +362,110 @@ impl ShapedStop {
     }
 }
 
+/// A spring whose stiffness falls beyond a threshold, with a damper, of elongation `row . q`.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct SeismicDevice(pub law::SeismicDevice);
+
+#[pymethods]
+impl SeismicDevice {
+    #[new]
+    #[allow(clippy::too_many_arguments)] // mirrors the Python signature
+    fn new(
+        row: PyReadonlyArray1<f64>,
+        first_stiffness: f64,
+        second_stiffness: f64,
+        threshold: f64,
+        damping: f64,
+        exponent: f64,
+        stroke: f64,
+        rest_speed: f64,
+    ) -> PyResult<Self> {
+        let device = law::Device {
+            first_stiffness,
+            second_stiffness,
+            threshold,
+            damping,
+            exponent,
+            stroke,
+            rest_speed,
+        };
+        law::SeismicDevice::new(values(&row), device)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
+/// An elastic-plastic spring of elongation `row . q`.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct HardeningSpring(pub law::HardeningSpring);
+
+#[pymethods]
+impl HardeningSpring {
+    /// The points are elongations and tensions, the elastic limit first.
+    #[new]
+    #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+    fn new(row: PyReadonlyArray1<f64>, points: Vec<[f64; 2]>, kinematic: bool) -> PyResult<Self> {
+        let hardening = if kinematic {
+            law::Hardening::Kinematic
+        } else {
+            law::Hardening::Isotropic
+        };
+        law::HardeningSpring::new(values(&row), &points, hardening)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
+/// A stop that buckles.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct BucklingStop(pub law::BucklingStop);
+
+#[pymethods]
+impl BucklingStop {
+    /// The unloading stiffness is a table of residual crushings and stiffnesses.
+    #[new]
+    #[allow(clippy::too_many_arguments)] // mirrors the Python signature
+    #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+    fn new(
+        elastic: PyRef<'_, Stop>,
+        critical_force: f64,
+        post_force: f64,
+        plateau: f64,
+        fall: f64,
+        post_damping: f64,
+        unloading: Vec<[f64; 2]>,
+    ) -> PyResult<Self> {
+        let buckling = law::Buckling {
+            critical_force,
+            post_force,
+            plateau,
+            fall,
+            post_damping,
+            unloading,
+        };
+        law::BucklingStop::new(elastic.0.clone(), buckling)
+            .map(Self)
+            .map_err(core_error)
+    }
+}
+
 /// A law of any kind, as Python hands it over.
 #[derive(FromPyObject)]
 pub enum LawPart<'py> {
     Stop(PyRef<'py, Stop>),
     FrictionStop(PyRef<'py, FrictionStop>),
     Spring(PyRef<'py, Spring>),
+    Damper(PyRef<'py, Damper>),
+    ForceRelation(PyRef<'py, ForceRelation>),
     RigidStop(PyRef<'py, RigidStop>),
     HertzStop(PyRef<'py, HertzStop>),
     ZenerDamper(PyRef<'py, ZenerDamper>),
     ShapedStop(PyRef<'py, ShapedStop>),
+    SeismicDevice(PyRef<'py, SeismicDevice>),
+    HardeningSpring(PyRef<'py, HardeningSpring>),
+    BucklingStop(PyRef<'py, BucklingStop>),
+    UserLaw(PyRef<'py, UserLaw>),
+    OutsideProgram(PyRef<'py, OutsideProgram>),
 }
 
 impl LawPart<'_> {
@@ -329,10 +475,26 @@ impl LawPart<'_> {
             Self::Stop(law) => law.0.clone().into(),
             Self::FrictionStop(law) => law.0.clone().into(),
             Self::Spring(law) => law.0.clone().into(),
+            Self::Damper(law) => law.0.clone().into(),
+            Self::ForceRelation(law) => law.0.clone().into(),
             Self::RigidStop(law) => law.0.clone().into(),
             Self::HertzStop(law) => law.0.clone().into(),
             Self::ZenerDamper(law) => law.0.clone().into(),
             Self::ShapedStop(law) => law.0.clone().into(),
+            Self::SeismicDevice(law) => law.0.clone().into(),
+            Self::HardeningSpring(law) => law.0.clone().into(),
+            Self::BucklingStop(law) => law.0.clone().into(),
+            Self::UserLaw(law) => law.law.clone().into(),
+            Self::OutsideProgram(law) => law.law.clone().into(),
+        }
+    }
+
+    /// What Python code that answers for it went wrong with.
+    pub fn raised(&self) -> Option<PyErr> {
+        match self {
+            Self::UserLaw(law) => law.raised(),
+            Self::OutsideProgram(law) => law.raised(),
+            _ => None,
         }
     }
 }

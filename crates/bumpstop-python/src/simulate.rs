@@ -59,9 +59,14 @@ pub fn simulate(
     )
     .map(Arc::new)
     .map_err(core_error)?;
-    timed(py, Reporter::new(progress, duration), |observer| {
+    let solved = timed(py, Reporter::new(progress, duration), |observer| {
         method::simulate(&problem, method, observer)
-    })
+    });
+    // What Python code went wrong with says more than what the core made of it.
+    match laws.iter().find_map(LawPart::raised) {
+        Some(raised) => Err(raised),
+        None => solved,
+    }
 }
 
 /// Runs something without the GIL, with its time, and with what the reporter says.

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, finite, not_negative, pair, series
-from bumpstop.errors import InputError
+from bumpstop.arguments import FloatArray, Vector, finite, not_negative
 from bumpstop.laws.connection import Connection
 from bumpstop.laws.coordinate import Terms
+from bumpstop.laws.polyline import checked_segments, line_values, slopes_through
 
 if TYPE_CHECKING:
     from bumpstop import _core
     from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["SpringLaw"]
-
-MOST_SEGMENTS = 255
 
 
 @dataclass(frozen=True)
@@ -81,20 +78,11 @@ class SpringLaw(Connection):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        breaks = series("breaks", self.breaks) if len(self.breaks) else ()
-        object.__setattr__(self, "stiffness", series("stiffness", self.stiffness))
+        stiffness, breaks = checked_segments("stiffness", self.stiffness, self.breaks)
+        object.__setattr__(self, "stiffness", stiffness)
         object.__setattr__(self, "breaks", breaks)
         object.__setattr__(self, "preload", finite("preload", self.preload))
         object.__setattr__(self, "damping", not_negative("damping", self.damping))
-        if len(self.stiffness) != len(breaks) + 1:
-            hint = f"{len(breaks)} breaks part {len(breaks) + 1} segments"
-            what = "must have one slope more than there are breaks"
-            raise InputError(what, key="stiffness", value=self.stiffness, hint=hint)
-        if len(self.stiffness) > MOST_SEGMENTS:
-            what = f"must not have more than {MOST_SEGMENTS} segments"
-            raise InputError(what, key="stiffness", value=len(self.stiffness))
-        if any(after <= before for before, after in pairwise(breaks)):
-            raise InputError("must increase", key="breaks", value=breaks)
 
     @classmethod
     def through(
@@ -124,24 +112,16 @@ class SpringLaw(Connection):
         >>> SpringLaw.through(curve, "pad", node="P", direction=(1, 0, 0)).stiffness
         (50000.0, 200000.0)
         """
-        pairs = np.array([pair(f"curve[{i}]", point) for i, point in enumerate(points)])
-        if len(pairs) < 2:
-            raise InputError("must have at least two points", key="curve", value=points)
-        steps = np.diff(pairs, axis=0)
-        if (steps[:, 0] <= 0.0).any():
-            raise InputError("must be in the order of deformation", key="curve", value=points)
-        slopes = steps[:, 1] / steps[:, 0]
-        breaks = pairs[1:-1, 0]
-        home = int(np.searchsorted(breaks, 0.0, side="right"))
+        slopes, breaks, preload = slopes_through(points, "deformation")
         return cls(
             name,
             node=node,
             direction=direction,
             other=other,
             terms=terms,
-            stiffness=tuple(slopes.tolist()),
-            breaks=tuple(breaks.tolist()),
-            preload=float(pairs[home, 1] - slopes[home] * pairs[home, 0]),
+            stiffness=slopes,
+            breaks=breaks,
+            preload=preload,
             damping=damping,
         )
 
@@ -159,9 +139,4 @@ class SpringLaw(Connection):
 
     def force(self, deformation: FloatArray | Sequence[float]) -> FloatArray:
         """Return the force in N with which it resists, for deformations in m at rest."""
-        x = np.asarray(deformation, dtype=np.float64)
-        ends = np.array([-np.inf, *self.breaks, np.inf])
-        total = np.full(x.shape, self.preload)
-        for slope, low, high in zip(self.stiffness, ends[:-1], ends[1:], strict=True):
-            total += slope * (np.clip(x, low, high) - np.clip(0.0, low, high))
-        return total
+        return line_values(deformation, self.stiffness, self.breaks, self.preload)

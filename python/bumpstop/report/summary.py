@@ -7,14 +7,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bumpstop.laws import (
+    BucklingStop,
     CircleStop,
+    DamperLaw,
+    ForceRelation,
     Friction,
+    HardeningSpring,
     HertzStop,
+    OutsideProgram,
     PlaneStop,
     PolarStop,
     RigidStop,
+    SeismicDevice,
     SpringLaw,
     Stop,
+    UserLaw,
     ZenerDamper,
 )
 from bumpstop.laws.shaped_stop import ShapedStop
@@ -269,6 +276,28 @@ def _law(law: Law) -> str:
         return (
             f"{law.name}: a rigid {law.obstacle} {_pushing(law.coordinate)}, {gap}, {restitution}"
         )
+    if isinstance(law, DamperLaw):
+        slopes = ", ".join(with_unit(slope, "N s/m") for slope in law.damping)
+        where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"
+        return f"{law.name}: a damper {where}, {slopes}"
+    if isinstance(law, SeismicDevice):
+        stiffness = (law.first_stiffness, law.second_stiffness)
+        told = " to ".join(with_unit(each, "N/m") for each in stiffness)
+        where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"
+        return f"{law.name}: a seismic device {where}, {told} about {with_unit(law.threshold, 'N')}"
+    if isinstance(law, HardeningSpring):
+        where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"
+        told = f"{with_unit(law.stiffness, 'N/m')}, yields at {with_unit(law.curve[0][1], 'N')}"
+        return f"{law.name}: a spring {where}, {told}, {law.hardening} hardening"
+    if isinstance(law, BucklingStop):
+        gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
+        forces = f"buckles at {with_unit(law.critical_force, 'N')}"
+        return f"{law.name}: a {law.obstacle} {_pushing(law.coordinate)}, {gap}, {forces}"
+    if isinstance(law, UserLaw | OutsideProgram):
+        return f"{law.name}: a {law.kind} of the user's own {_where(law.coordinate)}"
+    if isinstance(law, ForceRelation):
+        where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"
+        return f"{law.name}: a force {where}, {law.force}"
     if isinstance(law, ZenerDamper):
         springs = (law.series_stiffness, law.parallel_stiffness, law.branch_stiffness)
         told = ", ".join(with_unit(stiffness, "N/m") for stiffness in springs)

@@ -1,8 +1,9 @@
 //! Any of the laws, so that a problem can have several kinds.
 
 use super::{
-    Constraint, FrictionStop, Guard, HertzStop, Law, Local, LocalMotion, Piece, Power, RigidStop,
-    ShapedStop, Spring, State, Stop, ZenerDamper,
+    BucklingStop, Constraint, Damper, ForceRelation, FrictionStop, Guard, HardeningSpring,
+    HertzStop, Law, Local, LocalMotion, OutsideProgram, Piece, Power, RigidStop, SeismicDevice,
+    ShapedStop, Spring, State, Stop, UserLaw, ZenerDamper,
 };
 use crate::number::Number;
 use std::borrow::Cow;
@@ -16,10 +17,24 @@ pub enum AnyLaw {
     FrictionStop(FrictionStop),
     /// A multilinear elastic spring.
     Spring(Spring),
+    /// A multilinear damper.
+    Damper(Damper),
+    /// A force by a formula of position and velocity.
+    ForceRelation(ForceRelation),
     /// An obstacle that does not give way.
     RigidStop(RigidStop),
     /// An obstacle whose force is a power of the depth.
     HertzStop(HertzStop),
+    /// A spring whose stiffness falls beyond a threshold, with a damper.
+    SeismicDevice(SeismicDevice),
+    /// An elastic-plastic spring.
+    HardeningSpring(HardeningSpring),
+    /// A stop that buckles.
+    BucklingStop(BucklingStop),
+    /// A law that answers from outside.
+    UserLaw(UserLaw),
+    /// A program outside, coupled step by step.
+    OutsideProgram(OutsideProgram),
     /// Springs around a nonlinear dashpot.
     ZenerDamper(ZenerDamper),
     /// An obstacle of any shape.
@@ -44,6 +59,18 @@ impl From<Spring> for AnyLaw {
     }
 }
 
+impl From<Damper> for AnyLaw {
+    fn from(law: Damper) -> Self {
+        Self::Damper(law)
+    }
+}
+
+impl From<ForceRelation> for AnyLaw {
+    fn from(law: ForceRelation) -> Self {
+        Self::ForceRelation(law)
+    }
+}
+
 impl From<RigidStop> for AnyLaw {
     fn from(stop: RigidStop) -> Self {
         Self::RigidStop(stop)
@@ -53,6 +80,36 @@ impl From<RigidStop> for AnyLaw {
 impl From<HertzStop> for AnyLaw {
     fn from(stop: HertzStop) -> Self {
         Self::HertzStop(stop)
+    }
+}
+
+impl From<SeismicDevice> for AnyLaw {
+    fn from(law: SeismicDevice) -> Self {
+        Self::SeismicDevice(law)
+    }
+}
+
+impl From<HardeningSpring> for AnyLaw {
+    fn from(law: HardeningSpring) -> Self {
+        Self::HardeningSpring(law)
+    }
+}
+
+impl From<BucklingStop> for AnyLaw {
+    fn from(law: BucklingStop) -> Self {
+        Self::BucklingStop(law)
+    }
+}
+
+impl From<UserLaw> for AnyLaw {
+    fn from(law: UserLaw) -> Self {
+        Self::UserLaw(law)
+    }
+}
+
+impl From<OutsideProgram> for AnyLaw {
+    fn from(law: OutsideProgram) -> Self {
+        Self::OutsideProgram(law)
     }
 }
 
@@ -75,8 +132,15 @@ macro_rules! ask {
             Self::Stop($law) => $answer,
             Self::FrictionStop($law) => $answer,
             Self::Spring($law) => $answer,
+            Self::Damper($law) => $answer,
+            Self::ForceRelation($law) => $answer,
             Self::RigidStop($law) => $answer,
             Self::HertzStop($law) => $answer,
+            Self::SeismicDevice($law) => $answer,
+            Self::HardeningSpring($law) => $answer,
+            Self::BucklingStop($law) => $answer,
+            Self::UserLaw($law) => $answer,
+            Self::OutsideProgram($law) => $answer,
             Self::ZenerDamper($law) => $answer,
             Self::ShapedStop($law) => $answer,
         }
@@ -148,6 +212,14 @@ impl Law for AnyLaw {
 
     fn memory_sizes(&self, position: &Local<f64>) -> [f64; 2] {
         ask!(self, law => law.memory_sizes(position))
+    }
+
+    fn has_failed(&self) -> bool {
+        ask!(self, law => law.has_failed())
+    }
+
+    fn is_stepped(&self) -> bool {
+        ask!(self, law => law.is_stepped())
     }
 
     fn piece(&self, state: State) -> Option<Piece> {

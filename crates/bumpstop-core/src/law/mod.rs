@@ -9,25 +9,42 @@
 
 mod affine;
 mod any;
+mod buckling_stop;
+mod damper;
+mod force_relation;
+mod formula;
 mod friction_stop;
+mod hardening_spring;
 mod hertz_stop;
+mod outside_program;
+mod polyline;
 mod rigid_stop;
 mod rubbing;
+mod seismic_device;
 mod shaped_stop;
 mod spring;
 mod state;
 mod stop;
+mod user_law;
 mod zener_damper;
 
 pub use affine::{Affine, Power};
 pub use any::AnyLaw;
+pub use buckling_stop::{Buckling, BucklingStop};
+pub use damper::Damper;
+pub use force_relation::ForceRelation;
+pub use formula::{Binary, Formula, Operation, Sided, Smooth};
 pub use friction_stop::{Friction, FrictionStop};
+pub use hardening_spring::{Hardening, HardeningSpring};
 pub use hertz_stop::HertzStop;
+pub use outside_program::{OutsideProgram, Program};
 pub use rigid_stop::RigidStop;
+pub use seismic_device::{Device, SeismicDevice};
 pub use shaped_stop::ShapedStop;
 pub use spring::Spring;
 pub use state::{LocalMotion, State};
 pub use stop::Stop;
+pub use user_law::{Answers, Question, Slopes, UserLaw};
 pub use zener_damper::{Zener, ZenerDamper};
 
 use crate::number::Number;
@@ -202,6 +219,17 @@ pub trait Law: Clone + Send + Sync {
     /// error. By default a length like the first coordinate.
     fn memory_sizes(&self, position: &Local<f64>) -> [f64; 2] {
         [position[0].abs(); 2]
+    }
+
+    /// Whether somebody outside who is asked for forces could not tell one: nothing that was
+    /// computed since is of use.
+    fn has_failed(&self) -> bool {
+        false
+    }
+
+    /// Whether its states must be sampled once a step, in order, as those of a program outside.
+    fn is_stepped(&self) -> bool {
+        false
     }
 
     /// The state's matrices where it is linear.

@@ -3,33 +3,19 @@
 //! With deformation x the force on the structure is `-(f(x) + c x')`, where f is continuous and
 //! has one slope a segment. The segments are the states.
 
+use super::polyline::{Names, Polyline};
 use super::{Affine, Guard, Law, Local, LocalMotion, Piece, Power, State};
-use crate::error::{Error, Result, check_finite, check_length};
+use crate::error::{Error, Result, check_finite};
 use crate::number::Number;
 use std::borrow::Cow;
-
-/// One straight piece of the force.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Segment {
-    /// Where it begins, or for the first one where it ends.
-    origin: f64,
-    /// Force and stored energy there.
-    force: f64,
-    energy: f64,
-    stiffness: f64,
-}
 
 /// An elastic spring whose stiffness changes at given deformations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spring {
     rows: [Vec<f64>; 1],
-    breaks: Vec<f64>,
-    segments: Vec<Segment>,
+    force: Polyline,
     damping: f64,
 }
-
-/// The most segments: states are told apart by a byte.
-const MOST_SEGMENTS: usize = 255;
 
 impl Spring {
     /// A spring of deformation `row . q` whose stiffness is `stiffness[i]` between `breaks[i-1]`
@@ -45,97 +31,35 @@ impl Spring {
         preload: f64,
         damping: f64,
     ) -> Result<Self> {
+        let names = Names {
+            breaks: "the spring's breaks",
+            slopes: "the spring's stiffness",
+            distance: "the distance between the spring's breaks",
+        };
         check_finite("the spring's row", &row)?;
-        check_finite("the spring's breaks", &breaks)?;
-        check_finite("the spring's stiffness", stiffness)?;
         check_finite("the spring's preload", &[preload])?;
         check_finite("the spring's damping", &[damping])?;
-        check_length("the spring's stiffness", stiffness, breaks.len() + 1)?;
         if damping < 0.0 {
             return Err(Error::Negative {
                 what: "the spring's damping",
                 value: damping,
             });
         }
-        if let Some(pair) = breaks.windows(2).find(|pair| pair[1] <= pair[0]) {
-            return Err(Error::NotPositive {
-                what: "the distance between the spring's breaks",
-                value: pair[1] - pair[0],
-            });
-        }
-        if stiffness.len() > MOST_SEGMENTS {
-            return Err(Error::Length {
-                what: "the spring's stiffness",
-                found: stiffness.len(),
-                expected: MOST_SEGMENTS,
-            });
-        }
-        let segments = segments(&breaks, stiffness, preload);
         Ok(Self {
             rows: [row],
-            breaks,
-            segments,
+            force: Polyline::new(breaks, stiffness, preload, &names)?,
             damping,
         })
     }
 
-    fn segment(&self, state: State) -> &Segment {
-        &self.segments[state.number as usize]
-    }
-
-    /// The segment that holds a deformation; at a break the one above.
     #[inline(always)]
     fn state_at(&self, deformation: f64) -> State {
-        let number = self.breaks.iter().filter(|b| **b <= deformation).count();
-        State::plain(number as u8)
+        State::plain(self.force.number_at(deformation))
     }
 
     /// Whether a guard looks at the lower end of its segment.
     fn is_lower(&self, state: State, guard: usize) -> bool {
         state.number > 0 && guard == 0
-    }
-}
-
-/// The segments of a force that is `preload` at the origin, and their energies from there.
-fn segments(breaks: &[f64], stiffness: &[f64], preload: f64) -> Vec<Segment> {
-    let mut segments: Vec<Segment> = (stiffness.iter().enumerate())
-        .map(|(i, stiffness)| Segment {
-            origin: breaks.get(i.saturating_sub(1)).copied().unwrap_or(0.0),
-            force: 0.0,
-            energy: 0.0,
-            stiffness: *stiffness,
-        })
-        .collect();
-    for i in 1..segments.len() {
-        let (before, here) = (segments[i - 1], segments[i].origin);
-        segments[i].force = before.force_at(here);
-        segments[i].energy = before.energy_at(here);
-    }
-    let home = breaks.iter().filter(|b| **b <= 0.0).count();
-    let force = segments[home].force_at(0.0) - preload;
-    // Another force at the origin adds its work to the energies.
-    for segment in &mut segments {
-        segment.force -= force;
-        segment.energy -= force * segment.origin;
-    }
-    let energy = segments[home].energy_at(0.0);
-    for segment in &mut segments {
-        segment.energy -= energy;
-    }
-    segments
-}
-
-impl Segment {
-    #[inline(always)]
-    fn force_at<T: Number>(&self, deformation: T) -> T {
-        let beyond = deformation - T::of(self.origin);
-        T::of(self.force) + T::of(self.stiffness) * beyond
-    }
-
-    #[inline(always)]
-    fn energy_at<T: Number>(&self, deformation: T) -> T {
-        let beyond = deformation - T::of(self.origin);
-        T::of(self.energy) + beyond * (T::of(self.force) + T::of(0.5 * self.stiffness) * beyond)
     }
 }
 
@@ -151,15 +75,10 @@ impl Law for Spring {
     }
 
     fn initial_state(&self, motion: &LocalMotion, _acting: impl Fn(State) -> LocalMotion) -> State {
-        let x = motion.position()[0];
-        let Some(at) = (self.breaks.iter()).position(|b| (x - b).abs() <= motion.zero[0]) else {
-            return self.state_at(x);
-        };
-        let rates = motion.derivatives.iter().zip(motion.zero).skip(1);
-        let decisive = rates.map(|(rate, zero)| (rate[0], zero));
-        let leaves = decisive.into_iter().find(|(rate, zero)| rate.abs() > *zero);
-        let above = leaves.is_none_or(|(rate, _)| rate > 0.0);
-        State::plain((at + usize::from(above)) as u8)
+        let deformation = std::array::from_fn::<_, 4, _>(|order| {
+            (motion.derivatives[order][0], motion.zero[order])
+        });
+        State::plain(self.force.number_around(&deformation))
     }
 
     #[inline(always)]
@@ -175,35 +94,35 @@ impl Law for Spring {
     #[inline(always)]
     fn force<T: Number>(&self, state: State, position: &Local<T>, velocity: &Local<T>) -> Local<T> {
         let zero = T::of(0.0);
-        let spring = self.segment(state).force_at(position[0]);
+        let spring = self.force.segment(state.number).value_at(position[0]);
         [-(spring + T::of(self.damping) * velocity[0]), zero, zero]
     }
 
     fn piece(&self, state: State) -> Option<Piece> {
-        let segment = self.segment(state);
+        let segment = self.force.segment(state.number);
         let mut piece = Piece::FREE;
-        piece.constant[0] = -segment.force_at(0.0);
-        piece.stiffness[0][0] = segment.stiffness;
+        piece.constant[0] = -segment.value_at(0.0);
+        piece.stiffness[0][0] = segment.slope;
         piece.damping[0][0] = self.damping;
         Some(piece)
     }
 
     fn guard_count(&self, state: State) -> usize {
         let number = state.number as usize;
-        usize::from(number > 0) + usize::from(number < self.breaks.len())
+        usize::from(number > 0) + usize::from(number < self.force.breaks().len())
     }
 
     fn guard(&self, state: State, index: usize) -> Guard {
         let number = state.number as usize;
         let mut function = Affine::coordinate(0);
         if self.is_lower(state, index) {
-            function.constant = -self.breaks[number - 1];
+            function.constant = -self.force.breaks()[number - 1];
             return Guard {
                 name: "lower end",
                 function,
             };
         }
-        function.constant = -self.breaks[number];
+        function.constant = -self.force.breaks()[number];
         Guard {
             name: "upper end",
             function: function.times(-1.0),
@@ -225,7 +144,7 @@ impl Law for Spring {
 
     #[inline(always)]
     fn stored<T: Number>(&self, state: State, position: &Local<T>) -> T {
-        self.segment(state).energy_at(position[0])
+        self.force.segment(state.number).integral_at(position[0])
     }
 
     fn dissipation(&self, _state: State) -> Power {
@@ -247,7 +166,7 @@ impl Law for Spring {
 
     fn stiffest(&self) -> Piece {
         let mut piece = Piece::FREE;
-        piece.stiffness[0][0] = (self.segments.iter()).fold(0.0, |m, s| s.stiffness.max(m));
+        piece.stiffness[0][0] = self.force.steepest();
         piece.damping[0][0] = self.damping;
         piece
     }

@@ -79,6 +79,22 @@ pub(crate) fn check_linear<L: Law>(method: &'static str, laws: &[L]) -> Result<(
     }
 }
 
+/// Refuses laws whose memory follows rate equations: the schemes are for equations of motion.
+pub(crate) fn check_memories<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
+    match laws.iter().position(Law::flows) {
+        Some(law) => Err(Error::FlowingMemory { method, law }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses laws that must be asked once a step, for methods that ask more often.
+pub(crate) fn check_not_stepped<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
+    match laws.iter().position(Law::is_stepped) {
+        Some(law) => Err(Error::Stepped { method, law }),
+        None => Ok(()),
+    }
+}
+
 /// Asks the observer; its refusal becomes an error.
 pub(crate) fn observe(observer: &mut dyn FnMut(f64) -> bool, time: f64) -> Result<()> {
     if observer(time) {

@@ -10,7 +10,7 @@ use super::fixed_step::{
     check_growth, check_step, check_still, check_uncoupled, coupling, highest_frequency, in_lanes,
     law_force, laws_damping, modal, pushed, run,
 };
-use super::{Observer, check_linear};
+use super::{Observer, check_memories};
 use crate::error::Result;
 use crate::history::History;
 use crate::law::{COORDINATES, Law, Local, Stop, project};
@@ -42,7 +42,7 @@ pub fn simulate<L: Law>(
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Backward)?;
     check_uncoupled(NAME, &problem.system)?;
     check_forces(NAME, &problem.laws)?;
-    check_linear(NAME, &problem.laws)?;
+    check_memories(NAME, &problem.laws)?;
     check_still(NAME, &problem.forcing)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = SymplecticEuler {

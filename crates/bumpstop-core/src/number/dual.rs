@@ -129,6 +129,18 @@ impl Number for Dual {
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self {
         if self.value < other.value { yes } else { no }
     }
+    fn function<const N: usize>(
+        arguments: [Self; N],
+        value: impl Fn([f64; N]) -> f64,
+        gradient: impl Fn([f64; N]) -> [f64; N],
+    ) -> Self {
+        let at = arguments.map(|argument| argument.value);
+        let parts = gradient(at).into_iter().zip(arguments);
+        Self {
+            value: value(at),
+            slope: parts.map(|(part, argument)| part * argument.slope).sum(),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -144,5 +156,14 @@ mod tests {
         let root = (0.7f64 * 0.7 + 1.0).sqrt();
         let expected = root.exp() * (0.7 / root / 0.7 - 1.0 / 0.49);
         assert!((y.slope - expected).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_function_told_by_its_gradient_follows_the_chain_rule() {
+        let x = Dual::variable(0.7);
+        let product = Dual::function([x * x, x.exp()], |[a, b]| a * b, |[a, b]| [b, a]);
+        let expected = x * x * x.exp();
+        assert!((product.value - expected.value).abs() < 1e-15);
+        assert!((product.slope - expected.slope).abs() < 1e-15);
     }
 }

@@ -53,6 +53,13 @@ pub trait Number:
     fn power(self, exponent: f64) -> Self;
     /// `yes` where `self < other`, else `no`.
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self;
+    /// A function that is known by its value and its gradient alone, such as a user's. No hot
+    /// loop asks for it.
+    fn function<const N: usize>(
+        arguments: [Self; N],
+        value: impl Fn([f64; N]) -> f64,
+        gradient: impl Fn([f64; N]) -> [f64; N],
+    ) -> Self;
 }
 
 /// A number whose bits can be worked on, for the elementary functions.
@@ -105,6 +112,14 @@ impl Number for f64 {
     #[inline(always)]
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self {
         if self < other { yes } else { no }
+    }
+    #[inline(always)]
+    fn function<const N: usize>(
+        arguments: [Self; N],
+        value: impl Fn([f64; N]) -> f64,
+        _: impl Fn([f64; N]) -> [f64; N],
+    ) -> Self {
+        value(arguments)
     }
 }
 

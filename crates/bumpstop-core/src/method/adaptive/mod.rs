@@ -18,7 +18,7 @@ use super::instant::{self, Moment};
 use super::polynomial_steps::{
     Crossing, Equations, Layout, PolynomialRecord, Step, Watch, longest_step,
 };
-use super::{Observer, observe};
+use super::{Observer, check_not_stepped, observe};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
 use crate::law::{Law, Local, LocalMotion, State};
@@ -56,6 +56,7 @@ pub fn simulate<L: Law>(
     let pair = pair.pair();
     tolerances.check()?;
     check_forces(pair.name, &problem.laws)?;
+    check_not_stepped(pair.name, &problem.laws)?;
     let mut run = Run::new(problem, pair, tolerances);
     run.advance(observer)?;
     Ok(History::of_polynomials(
@@ -150,6 +151,7 @@ impl<'a, L: Law> Run<'a, L> {
             }
             self.stepper
                 .attempt(self.pair, self.time, h, &mut self.equations);
+            self.check_answers()?;
             let Stepper { stages, end, .. } = &self.stepper;
             let layout = &self.equations.layout;
             let equations = (self.problem, layout);
@@ -165,6 +167,17 @@ impl<'a, L: Law> Run<'a, L> {
                     step: h,
                 });
             }
+        }
+    }
+
+    /// Gives up where somebody outside could not tell a force.
+    fn check_answers(&self) -> Result<()> {
+        match self.problem.laws.iter().position(Law::has_failed) {
+            Some(law) => Err(Error::NoAnswer {
+                law,
+                time: self.time,
+            }),
+            None => Ok(()),
         }
     }
 

@@ -14,11 +14,9 @@ mod system;
 pub use system::FullSystem;
 
 use super::fixed_step::{Step, check_forces, check_step};
-use super::one_step::{
-    AlphaFamily, Laws, Motion, Scheme, SchemeName, Trace, Weights, check_memories,
-};
+use super::one_step::{AlphaFamily, Laws, Motion, Scheme, SchemeName, Trace, Weights};
 use super::polynomial_steps::Layout;
-use super::{Observer, central_difference, observe};
+use super::{Observer, central_difference, check_memories, check_not_stepped, observe};
 use crate::error::{Error, Result, check_finite, check_length};
 use crate::forcing::Forcing;
 use crate::history::History;
@@ -140,6 +138,7 @@ pub fn simulate<L: Law>(
     let mut trace = Trace::new(seen, Layout::told(seen), h)?;
     check_forces(name, &seen.laws)?;
     check_memories(name, &seen.laws)?;
+    check_not_stepped(name, &seen.laws)?;
     let limit = scheme.stability_limit(problem)?;
     check_step(name, step, limit)?;
     trace.watch_growth(limit);

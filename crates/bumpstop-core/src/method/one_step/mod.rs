@@ -30,7 +30,7 @@ pub use newmark::Newmark;
 
 use super::fixed_step::{Step, check_forces, check_step, check_uncoupled, highest_frequency};
 use super::polynomial_steps::Layout;
-use super::{Observer, observe};
+use super::{Observer, check_memories, check_not_stepped, observe};
 use crate::error::{Error, Result};
 use crate::history::History;
 use crate::law::Law;
@@ -160,6 +160,7 @@ pub fn simulate<L: Law>(
         check_forces(name, &problem.laws)?;
     }
     check_memories(name, &problem.laws)?;
+    check_not_stepped(name, &problem.laws)?;
     if scheme.goes_mode_by_mode() {
         check_uncoupled(name, &problem.system)?;
     }
@@ -181,14 +182,6 @@ pub fn simulate<L: Law>(
     }?;
     let (record, events) = trace.done();
     Ok(History::of_polynomials(problem, name, record, events))
-}
-
-/// Refuses laws whose memory follows rate equations: the schemes are for equations of motion.
-pub(crate) fn check_memories<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
-    match laws.iter().position(Law::flows) {
-        Some(law) => Err(Error::FlowingMemory { method, law }),
-        None => Ok(()),
-    }
 }
 
 /// Refuses a motion that left the range of numbers.

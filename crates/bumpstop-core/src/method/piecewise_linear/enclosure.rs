@@ -321,6 +321,16 @@ impl Number for Enclosure {
             Self::unbounded(no.jet.value, radius)
         }
     }
+
+    /// A gradient tells nothing of what lies beside it.
+    fn function<const N: usize>(
+        arguments: [Self; N],
+        value: impl Fn([f64; N]) -> f64,
+        _: impl Fn([f64; N]) -> [f64; N],
+    ) -> Self {
+        let radius = (arguments.iter()).fold(0.0, |radius: f64, each| radius.max(each.radius));
+        Self::unbounded(value(arguments.map(|each| each.jet.value)), radius)
+    }
 }
 
 #[cfg(test)]

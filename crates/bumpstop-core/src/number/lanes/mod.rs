@@ -246,6 +246,16 @@ impl<I: Instructions> Number for Lanes<I> {
     fn select_less(self, other: Self, yes: Self, no: Self) -> Self {
         Self(I::select_less(self.0, other.0, yes.0, no.0))
     }
+    fn function<const N: usize>(
+        arguments: [Self; N],
+        value: impl Fn([f64; N]) -> f64,
+        _: impl Fn([f64; N]) -> [f64; N],
+    ) -> Self {
+        let each = arguments.map(Self::numbers);
+        Self::new(std::array::from_fn(|lane| {
+            value(std::array::from_fn(|n| each[n][lane]))
+        }))
+    }
 }
 
 impl<I: Instructions> Bits for Lanes<I> {

@@ -12,10 +12,10 @@ from bumpstop.laws import Stop
 
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
-    from bumpstop.io.case.tables.laws import LawTable, SpringLawTable
+    from bumpstop.io.case.tables.laws import LawTable
     from bumpstop.io.case.tables.motion import MotionTable
     from bumpstop.io.case.tables.stops import StopTable
-    from bumpstop.laws import SpringLaw, ZenerDamper
+    from bumpstop.laws import BucklingStop, DamperLaw, SpringLaw
     from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Law
 
@@ -34,10 +34,23 @@ ELASTIC = (
 """What a stop that gives way can have."""
 POWER = ("exponent", "hunt_crossley")
 """What makes a stop one whose force is a power of its depth."""
-NOT_POWER = tuple(key for key in ELASTIC if key not in ("stiffness", "motion", "frame"))
+NOT_POWER = (
+    *(key for key in ELASTIC if key not in ("stiffness", "motion", "frame")),
+    "buckling",
+)
 """What such a stop cannot have."""
 SHAPED = ("axis", "roll", "centre", "radius", "body_radius", "side", "profile")
 """What obstacles about an axis alone have."""
+
+CONNECTIONS = {
+    "zener": "ZenerDamper",
+    "relation": "ForceRelation",
+    "seismic": "SeismicDevice",
+    "hardening": "HardeningSpring",
+}
+"""The class of each type of law that takes what its table has."""
+SLOPES = {"spring": ("stiffness", "breaks", "preload"), "damper": ("damping", "breaks", "offset")}
+"""What a curve tells of the types that have several slopes."""
 
 
 def built_laws(case: CaseFile, folder: Path) -> list[Law]:
@@ -80,7 +93,7 @@ def _stop(name: str, table: StopTable, folder: Path) -> Law:
     if table.restitution is not None:
         from bumpstop.laws import RigidStop
 
-        _refuse(given, (*ELASTIC, *POWER), "a rigid stop", "restitution")
+        _refuse(given, (*ELASTIC, *POWER, "buckling"), "a rigid stop", "restitution")
         return RigidStop(name, **given)
     if table.stiffness is None:
         hint = "a rigid stop has a restitution instead"
@@ -100,7 +113,19 @@ def _stop(name: str, table: StopTable, folder: Path) -> Law:
 
         _refuse(given, NOT_POWER, "a stop whose force is a power of its depth", "exponent")
         return HertzStop(name, **given)
+    if table.buckling is not None:
+        return _buckling(name, given)
     return Stop(name, **given)
+
+
+def _buckling(name: str, given: dict[str, Any]) -> BucklingStop:
+    from bumpstop.laws import BucklingStop
+
+    kept = ("stiffness", "damping")
+    unlike = [key for key in ELASTIC if key not in kept]
+    _refuse(given, unlike, "a stop that buckles", "buckling")
+    after = {key: value for key, value in given.pop("buckling") if value is not None}
+    return BucklingStop(name, **given, **after)
 
 
 def _refuse(given: dict[str, Any], keys: Iterable[str], kind: str, reason: str) -> None:
@@ -125,31 +150,32 @@ def _motion(table: MotionTable, folder: Path) -> list[TimeFunction]:
     return [scaled(function, table.travel) for function in functions]
 
 
-def _connection(name: str, table: LawTable) -> SpringLaw | ZenerDamper:
-    if table.type == "spring":
-        return _spring(name, table)
-    from bumpstop.laws import ZenerDamper
+def _connection(name: str, table: LawTable) -> Law:
+    import bumpstop.laws as known
 
     given = _given(table)
-    del given["type"]
-    return ZenerDamper(name, **given)
+    kind = given.pop("type")
+    if kind in SLOPES:
+        return _of_slopes(name, kind, given)
+    law: Law = getattr(known, CONNECTIONS[kind])(name, **given)
+    return law
 
 
-def _spring(name: str, table: SpringLawTable) -> SpringLaw:
+def _of_slopes(name: str, kind: str, given: dict[str, Any]) -> SpringLaw | DamperLaw:
+    """Return a law whose force has several slopes."""
     from bumpstop.errors import InputError
-    from bumpstop.laws import SpringLaw
+    from bumpstop.laws import DamperLaw, SpringLaw
 
-    given = _given(table)
-    del given["type"]
+    law, told = SpringLaw if kind == "spring" else DamperLaw, SLOPES[kind]
     curve = given.pop("curve", None)
     if curve is None:
-        if "stiffness" not in given:
-            raise InputError("must have the slopes of its segments, or a curve", key="stiffness")
-        return SpringLaw(name, **given)
-    for key in ("stiffness", "breaks", "preload"):
+        if told[0] not in given:
+            raise InputError("must have the slopes of its segments, or a curve", key=told[0])
+        return law(name, **given)
+    for key in told:
         if key in given:
             raise InputError("is told by the curve already", key=key, value=given[key])
-    return SpringLaw.through(curve, name, **given)
+    return law.through(curve, name, **given)
 
 
 def _given(table: Table) -> dict[str, Any]:

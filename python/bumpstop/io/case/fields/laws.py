@@ -14,11 +14,15 @@ from bumpstop.structure.dofs import DOFS, Dof
 __all__ = [
     "ContactStiffness",
     "Curve",
+    "DampingSlopes",
     "Deformations",
     "FrictionCoefficients",
     "Profile",
     "Sliding",
     "Slopes",
+    "SpeedCurve",
+    "Speeds",
+    "Unloading",
     "contact_stiffness",
 ]
 
@@ -27,6 +31,8 @@ _TURN = Dimension("an angle", "rad", "30 deg")
 _DEFORMATION = Dimension("a length", "m", "2 mm")
 _FORCE = Dimension("a force", "N", "5 kN")
 _SLOPE = Dimension("a stiffness", "N/m", "18 kN/m")
+_SPEED = Dimension("a speed", "m/s", "0.2 m/s")
+_DAMPING = Dimension("a damping constant", "N s/m", "30 N s/m")
 _COEFFICIENTS = ("static", "dynamic")
 
 
@@ -102,6 +108,36 @@ def _read_slopes(value: object) -> list[float]:
     return read_list(value, lambda each: read_number(each, _SLOPE), "numbers")
 
 
+def _read_speeds(value: object) -> list[float]:
+    return read_list(value, lambda each: read_number(each, _SPEED), "numbers")
+
+
+def _read_damping_slopes(value: object) -> list[float]:
+    return read_list(value, lambda each: read_number(each, _DAMPING), "numbers")
+
+
+def _read_speed_curve(value: object) -> list[tuple[float, float]]:
+    return read_list(value, _read_speed_point, "points [speed, force]")
+
+
+def _read_speed_point(value: object) -> tuple[float, float]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError("must be a speed and a force", value=value)
+    return read_number(value[0], _SPEED), read_number(value[1], _FORCE)
+
+
+def _read_unloading(value: object) -> float | list[tuple[float, float]]:
+    if isinstance(value, list):
+        return read_list(value, _read_unloading_point, "points [residual crushing, stiffness]")
+    return read_number(value, _SLOPE, above=0)
+
+
+def _read_unloading_point(value: object) -> tuple[float, float]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError("must be a residual crushing and a stiffness", value=value)
+    return read_number(value[0], _DEFORMATION, least=0), read_number(value[1], _SLOPE, above=0)
+
+
 def _read_curve(value: object) -> list[tuple[float, float]]:
     return read_list(value, _read_point, "points [deformation, force]")
 
@@ -160,6 +196,16 @@ Sliding = Annotated[
 ]
 Slopes = Annotated[list[float], Plain(_read_slopes, _LIST)]
 Deformations = Annotated[list[float], Plain(_read_deformations, _LIST)]
+Unloading = Annotated[
+    float | list[tuple[float, float]],
+    Plain(_read_unloading, {"anyOf": [_STIFFNESS, {"type": "array", "items": _POINT}]}),
+]
+Speeds = Annotated[list[float], Plain(_read_speeds, _LIST)]
+DampingSlopes = Annotated[list[float], Plain(_read_damping_slopes, _LIST)]
+SpeedCurve = Annotated[
+    list[tuple[float, float]],
+    Plain(_read_speed_curve, {"type": "array", "items": _POINT, "minItems": 2}),
+]
 Curve = Annotated[
     list[tuple[float, float]],
     Plain(_read_curve, {"type": "array", "items": _POINT, "minItems": 2}),

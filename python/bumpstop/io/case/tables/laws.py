@@ -2,19 +2,35 @@
 
 from typing import Annotated, Literal
 
-from bumpstop.io.case.fields.laws import Curve, Deformations, Slopes
+from bumpstop.io.case.fields.laws import (
+    Curve,
+    DampingSlopes,
+    Deformations,
+    Slopes,
+    SpeedCurve,
+    Speeds,
+)
 from bumpstop.io.case.fields.quantities import (
     DampingConstant,
     Force,
     Length,
     Number3,
+    PositiveLength,
     PositiveNumber,
     Stiffness,
 )
-from bumpstop.io.case.fields.words import Node, OneDof
+from bumpstop.io.case.fields.words import Node, OneDof, Text, choice
 from bumpstop.io.case.tables.table import Field, Kinds, Table
 
-__all__ = ["LawTable", "SpringLawTable", "ZenerDamperTable"]
+__all__ = [
+    "DamperLawTable",
+    "ForceRelationTable",
+    "HardeningSpringTable",
+    "LawTable",
+    "SeismicDeviceTable",
+    "SpringLawTable",
+    "ZenerDamperTable",
+]
 
 
 class ConnectionTable(Table):
@@ -77,4 +93,79 @@ class ZenerDamperTable(ConnectionTable):
     )
 
 
-LawTable = Annotated[SpringLawTable | ZenerDamperTable, Kinds("type")]
+class DamperLawTable(ConnectionTable):
+    """A damper whose constant changes with its speed: a force that is a table of the speed."""
+
+    type: Literal["damper"] = Field(description="Kind of law")
+    damping: DampingSlopes | None = Field(
+        default=None,
+        description="Slope of the force in each segment, in N s/m, one more than breaks",
+    )
+    breaks: Speeds | None = Field(
+        default=None, description="Speeds at which the slope changes, increasing, in m/s"
+    )
+    offset: Force | None = Field(default=None, description="Force that resists at no speed, in N")
+    curve: SpeedCurve | None = Field(
+        default=None,
+        description="Instead of damping, breaks and offset: points [speed, force] that the force "
+        "runs through, in m/s and N",
+    )
+
+
+class ForceRelationTable(ConnectionTable):
+    """A force that is a formula of the displacement x and the velocity v along a direction."""
+
+    type: Literal["relation"] = Field(description="Kind of law")
+    force: Text = Field(
+        description="Force on the node, in N, as a formula of x in m and v in m/s: a spring is "
+        '"-2e4 * x"'
+    )
+
+
+class SeismicDeviceTable(ConnectionTable):
+    """A spring that softens beyond a threshold, with a damper by a power of the speed."""
+
+    type: Literal["seismic"] = Field(description="Kind of law")
+    first_stiffness: Stiffness = Field(description="Stiffness at small elongations, in N/m")
+    second_stiffness: Stiffness = Field(
+        description="Stiffness at large elongations, in N/m, not above the first"
+    )
+    threshold: Force = Field(description="Force around which the stiffness changes, in N")
+    damping: Force | None = Field(
+        default=None,
+        description="Force of the damper where speed times elongation over stroke is 1 m/s, in N",
+    )
+    exponent: PositiveNumber = Field(
+        default=1.0, description="Power of the damper, at most 1, which is that of a linear one"
+    )
+    stroke: PositiveLength | None = Field(
+        default=None, description="Elongation that the damper's is measured by, in m"
+    )
+    rest_speed: PositiveNumber | None = Field(
+        default=None, description="Speed below which the damper is linear, in m/s; 1e-6 if left out"
+    )
+
+
+class HardeningSpringTable(ConnectionTable):
+    """A spring that yields, and hardens as it does, along a table of force against elongation."""
+
+    type: Literal["hardening"] = Field(description="Kind of law")
+    curve: Curve = Field(
+        description="Points [elongation, force] of a first pull, in m and N, from the elastic limit"
+    )
+    hardening: Annotated[str, choice("isotropic", "kinematic")] = Field(
+        default="isotropic",
+        description="Whether its limit grows both ways or is shifted, for which the curve has two "
+        "points",
+    )
+
+
+LawTable = Annotated[
+    SpringLawTable
+    | ZenerDamperTable
+    | DamperLawTable
+    | ForceRelationTable
+    | SeismicDeviceTable
+    | HardeningSpringTable,
+    Kinds("type"),
+]

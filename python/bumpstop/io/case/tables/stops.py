@@ -25,8 +25,10 @@ from bumpstop.io.case.tables.later import later
 from bumpstop.io.case.tables.table import Field, Table
 
 if TYPE_CHECKING:
+    from bumpstop.io.case.tables.buckling import BucklingTable
     from bumpstop.io.case.tables.motion import MotionTable
 else:
+    BucklingTable = later("buckling", "BucklingTable")
     MotionTable = later("motion", "MotionTable")
 
 __all__ = ["StopTable"]
@@ -122,6 +124,9 @@ class StopTable(Table):
         "from 1e-13 to 1, 1e-12 where left out",
     )
     damping: DampingConstant = Field(default=0.0, description="Contact damping, in N s/m")
+    buckling: BucklingTable | None = Field(
+        default=None, description="What it does beyond a critical force; such a stop does not rub"
+    )
     motion: MotionTable | None = Field(
         default=None,
         description="How far the obstacle moves along its normal, towards the structure, over time",

@@ -1,0 +1,151 @@
+"""Elastic-plastic springs, exact: closed forms, return mapping, energies, bad input."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+
+from .one_mass import one_mass, shaking
+
+CURVE = [(1e-3, 100.0), (2e-3, 140.0), (5e-3, 160.0), (9e-3, 160.0)]
+
+
+def spring(**changes: Any) -> bs.HardeningSpring:
+    usual: dict[str, Any] = {"node": "P", "direction": (1, 0, 0), "curve": CURVE}
+    return bs.HardeningSpring("tie", **usual | changes)
+
+
+def instant(response: bs.Response, guard: str) -> float:
+    """Return when a guard first fell."""
+    events = response.events
+    return float(events["time"][events["guard"] == guard].iloc[0])
+
+
+def mapped(law: bs.HardeningSpring, elongations: Any) -> tuple[Any, float]:
+    """Return tensions along a path by return mapping in small steps, and what was dissipated."""
+    stiffness, points = law.stiffness, np.array(law.curve)
+    plastic = points[:, 0] - points[:, 1] / stiffness
+    part = total = lost = 0.0
+    tensions = []
+    for u in elongations:
+        force = stiffness * (u - part)
+        if law.hardening == "kinematic":
+            slope = (points[1, 1] - points[0, 1]) / (plastic[1] - plastic[0])
+            excess = abs(force - slope * part) - points[0, 1]
+            sign = np.sign(force - slope * part)
+            growth = max(0.0, excess) / (stiffness + slope)
+            lost += points[0, 1] * growth
+        else:
+            sign, growth = np.sign(force), 0.0
+            limits = np.interp([total], plastic, points[:, 1])
+            if abs(force) > limits[0]:
+                low, high = 0.0, abs(force) / stiffness
+                for _ in range(60):
+                    middle = 0.5 * (low + high)
+                    left = abs(force) - stiffness * middle
+                    if left > np.interp(total + middle, plastic, points[:, 1]):
+                        low = middle
+                    else:
+                        high = middle
+                growth = high
+                lost += np.interp(total + growth / 2, plastic, points[:, 1]) * growth
+        part, total = part + sign * growth, total + growth
+        tensions.append(stiffness * (u - part))
+    return np.array(tensions), lost
+
+
+def test_a_pulled_mass_follows_the_curve_and_unloads_elastically() -> None:
+    """Up to the turn the tension is that of the curve; the speed follows from the energy."""
+    response = bs.simulate(one_mass(spring(), speed=1.88**0.5, duration=0.2), "exact")
+    turn = instant(response, "turn back")
+    times = np.linspace(0.0, turn, 50)
+    x = response.sample("displacement", "P", "dx", times=times)
+    tension = -response.sample("stop_force", "tie", times=times)
+    assert tension == pytest.approx(spring().force(x), rel=1e-12, abs=1e-12)
+    below = 0.05 + 0.12 + 0.45  # the area below the curve up to 5 mm
+    far = 5e-3 + (0.94 - below) / 160.0
+    assert x[-1] == pytest.approx(far, rel=1e-12)
+    left = far - 160.0 / 1e5
+    later = response.sample("displacement", "P", "dx", times=[turn + np.pi / 2 / np.sqrt(1e5)])
+    assert later[0] == pytest.approx(left, rel=1e-12)
+    assert response.energy_residual < 1e-13
+
+
+@pytest.mark.parametrize("kind", ["isotropic", "kinematic"])
+def test_a_shaken_mass_follows_return_mapping(kind: str) -> None:
+    curve = CURVE if kind == "isotropic" else CURVE[:2]
+    law = spring(curve=curve, hardening=kind)
+    problem = one_mass(law, loads=[shaking(110.0, 30.0)], duration=0.2)
+    exact = bs.simulate(problem, "exact")
+    times = np.linspace(0.0, 0.2, 6001)
+    x = exact.sample("displacement", "P", "dx", times=times)
+    tension = -exact.sample("stop_force", "tie", times=times)
+    expected, lost = mapped(law, x)
+    assert np.abs(tension - expected).max() < 0.3
+    assert len(set(exact.event_table()["guard"])) >= 3
+    terms = exact.energy_terms([0.2])
+    assert terms["dissipated_stops"][0] == pytest.approx(lost, rel=3e-3)
+    assert exact.energy_residual < 1e-12
+    for method, close in (("dop853", 1e-8), ("rk54", 1e-8)):
+        run = bs.simulate(problem, method, rtol=1e-12)
+        found = run.sample("displacement", "P", "dx", times=times[::50])
+        assert np.abs(found - x[::50]).max() < close * np.abs(x).max()
+        assert run.energy_residual < 1e-9
+    for method in ("newmark", "symplectic_euler"):
+        run = bs.simulate(problem, method, dt=4e-6)
+        found = run.sample("displacement", "P", "dx", times=times[::50])
+        assert np.abs(found - x[::50]).max() < 2e-3 * np.abs(x).max(), method
+
+
+@pytest.mark.parametrize("kind", ["isotropic", "kinematic"])
+def test_kinematic_hardening_shifts_what_isotropic_hardening_widens(kind: str) -> None:
+    """Pulled to F and back, the one yields at -F, the other 200 N below F."""
+    law = spring(curve=CURVE[:2], hardening=kind)
+    pull = bs.TimeTable([0.0, 1.0, 3.0], [0.0, 1.0, -1.2])
+    load = bs.NodalForce("pull", node="P", force=(140.0, 0, 0), time=pull)
+    damper = bs.DamperLaw("damper", node="P", direction=(1, 0, 0), damping=[600.0])
+    response = bs.simulate(one_mass(law, damper, loads=[load], duration=3.0), "exact")
+    turned, yielded = (
+        -response.sample("stop_force", "tie", times=[instant(response, guard)])[0]
+        for guard in ("turn back", "yield in compression")
+    )
+    assert turned > 135.0
+    assert yielded == pytest.approx(-turned if kind == "isotropic" else turned - 200.0, rel=1e-12)
+
+
+def test_long_curves_are_thinned_within_what_is_told() -> None:
+    plastic = np.arange(0.0, 40.0, 0.01)
+    force = 200.0 + 400.0 * plastic / (1.0 + (400.0 * plastic / 250.0) ** 1.5) ** (1 / 1.5)
+    law = spring(curve=np.column_stack([plastic + 0.5, force]).tolist())
+    points, deviation = law.thinned
+    assert len(points) <= 128
+    assert 0.0 < deviation < 0.02
+    line = np.interp(plastic + 0.5, *points.T)
+    assert np.abs(line - force).max() <= deviation * (1 + 1e-9)
+    assert "of its 4000 points" in law.remarks[0]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "key"),
+    [
+        ({"curve": [(1e-3, 100.0)]}, "curve"),
+        ({"curve": [(0.0, 0.0), (1e-3, 100.0)]}, "curve[0].elongation"),
+        ({"curve": [(1e-3, 100.0), (1e-3, 120.0)]}, "curve[1]"),
+        ({"curve": [(1e-3, 100.0), (2e-3, 90.0)]}, "curve[1]"),
+        ({"curve": [(1e-3, 100.0), (2e-3, 300.0)]}, "curve[1]"),
+        ({"hardening": "kinematic"}, "curve"),
+        ({"hardening": "mixed"}, "hardening"),
+    ],
+)
+def test_bad_input_is_refused(wrong: dict[str, Any], key: str) -> None:
+    with pytest.raises(bs.InputError) as caught:
+        spring(**wrong)
+    assert caught.value.key == key
+
+
+def test_a_run_does_not_go_on_without_its_memory() -> None:
+    response = bs.simulate(one_mass(spring(), speed=0.9, duration=0.1))
+    with pytest.raises(bs.InputError, match="remembers more"):
+        bs.continued(response, duration=0.1)
