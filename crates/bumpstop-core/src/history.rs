@@ -167,6 +167,9 @@ impl<L: Law> History<L> {
     pub fn motion(&self, times: &[f64], derivative: Derivative) -> Result<Vec<f64>> {
         self.check_times(times)?;
         let modes = self.problem.system.modes();
+        if let (Record::Phases(record), Derivative::Displacement) = (&self.record, derivative) {
+            return Ok(record.displacements(times, modes));
+        }
         let mut rows = Vec::with_capacity(times.len() * modes);
         if let (Record::Polynomials(record), Derivative::Acceleration) = (&self.record, derivative)
             && record.layout.is_told()

@@ -113,6 +113,44 @@ impl Family {
         Lanes::totals(sums)
     }
 
+    /// `Re sum_j shape_gj z_j` of four groups from one on, at four instants: for each the groups as
+    /// [`Family::sums`] gives them. Shapes are read once for all.
+    #[inline(always)]
+    pub(crate) fn positions<I: Instructions>(
+        &self,
+        first: usize,
+        z: [&[ComplexBlock]; HALF],
+    ) -> [[f64; HALF]; HALF] {
+        let last = self.groups - 1;
+        let mut shapes = [self.shape(last); HALF];
+        for (i, shape) in shapes.iter_mut().enumerate() {
+            *shape = self.shape(last.min(first + i));
+        }
+        let mut sums = [[Lanes::<I>::of(0.0); HALF]; HALF];
+        for b in 0..self.width() {
+            let z = [
+                z[0][b].lanes(),
+                z[1][b].lanes(),
+                z[2][b].lanes(),
+                z[3][b].lanes(),
+            ];
+            for group in 0..HALF {
+                let shape = shapes[group][b].lanes();
+                for instant in 0..HALF {
+                    let sum = &mut sums[instant][group];
+                    *sum = shape.add_real_product(z[instant], *sum);
+                }
+            }
+        }
+        let mut positions = [[0.0; HALF]; HALF];
+        for (pair, to) in sums.chunks_exact(2).zip(positions.chunks_exact_mut(2)) {
+            let [[a, b, c, d], [e, f, g, h]] = [pair[0], pair[1]];
+            let totals = Lanes::totals([a, b, c, d, e, f, g, h]);
+            to.as_flattened_mut().copy_from_slice(&totals);
+        }
+        positions
+    }
+
     /// The entry of a row in a column counted from the first of all exponents; zero beside the
     /// family's own.
     pub(crate) fn entry(&self, row: &[ComplexBlock], column: usize) -> Complex<f64> {

@@ -1,6 +1,7 @@
 //! Phases: stretches of time in which no law switches, kept as amplitudes of exponentials.
 
 use super::cluster::Cluster;
+use super::family::HALF;
 use super::product::grown_lanes;
 use super::response::Response;
 use super::rows::{ComplexBlock, entry};
@@ -299,6 +300,43 @@ impl Phases {
             [&work.z, &work.rate],
             [&mut work.position, &mut work.velocity],
         );
+        self.complete::<I>(phase, t, work, q, v);
+    }
+
+    /// Modal displacements at up to four instants after the start of a phase, a row each, the same
+    /// as [`Phases::motion`] gives them; `unused` is room for velocities.
+    #[inline(always)]
+    pub(crate) fn displacements<I: Instructions>(
+        &self,
+        phase: Phase,
+        instants: &[f64],
+        works: &mut [Workspace; HALF],
+        rows: &mut [f64],
+        unused: &mut [f64],
+    ) {
+        let spectrum = &self.spectra[phase.spectrum];
+        for (i, work) in works.iter_mut().enumerate() {
+            self.turn::<I>(phase, instants[i.min(instants.len() - 1)], work);
+            work.position.resize(spectrum.combinations, 0.0);
+            work.velocity.resize(spectrum.combinations, 0.0);
+        }
+        spectrum.group_positions::<I>(works);
+        for ((t, work), q) in (instants.iter().zip(works)).zip(rows.chunks_mut(unused.len())) {
+            self.complete::<I>(phase, *t, work, q, unused);
+        }
+    }
+
+    /// Makes modal motion of the motion of the groups.
+    #[inline(always)]
+    fn complete<I: Instructions>(
+        &self,
+        phase: Phase,
+        t: f64,
+        work: &mut Workspace,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) {
+        let spectrum = &self.spectra[phase.spectrum];
         for (position, rest) in work.position.iter_mut().zip(&spectrum.at_rest) {
             *position += rest;
         }

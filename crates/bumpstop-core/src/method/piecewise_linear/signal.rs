@@ -496,7 +496,13 @@ impl Signal {
 
     /// Value, slope or curvature, by the order, `t` after the start of the phase.
     #[inline(always)]
-    fn at<I: Instructions>(&self, order: usize, phases: &Phases, phase: Phase, t: f64) -> f64 {
+    pub(crate) fn at<I: Instructions>(
+        &self,
+        order: usize,
+        phases: &Phases,
+        phase: Phase,
+        t: f64,
+    ) -> f64 {
         let time = Lanes::<I>::of(t);
         let mut sum = Lanes::<I>::of(0.0);
         let exponents = &phases.spectra[phase.spectrum].lambda;

@@ -12,6 +12,7 @@ use super::grouping::Acts;
 use super::held::{Held, Reaction};
 use super::impedance::Impedance;
 use super::parts::Parts;
+use super::phase::Workspace;
 use super::response::{Drives, Response, Stretch, Times};
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
@@ -477,6 +478,24 @@ impl Spectrum {
                     (*to, *to_rate) = (totals[i], totals[HALF + i]);
                 }
                 first += HALF;
+            }
+        }
+    }
+
+    /// `Re sum_j shape_gj z_j` for all groups, of the exponents at four instants.
+    #[inline(always)]
+    pub(crate) fn group_positions<I: Instructions>(&self, works: &mut [Workspace; HALF]) {
+        for family in self.families() {
+            for first in (0..family.groups).step_by(HALF) {
+                let [a, b, c, d] = &*works;
+                let z = [&a.z, &b.z, &c.z, &d.z].map(|z| &z[family.blocks()]);
+                let positions = family.positions::<I>(first, z);
+                let own = family.first_group + first..family.first_group + family.groups;
+                for (work, positions) in works.iter_mut().zip(positions) {
+                    for (to, position) in work.position[own.clone()].iter_mut().zip(positions) {
+                        *to = position;
+                    }
+                }
             }
         }
     }

@@ -4,8 +4,10 @@ mod accounts;
 mod contact;
 mod defect;
 mod projection;
+mod turns;
 
 use super::advance::Certificate;
+use super::family::HALF;
 use super::phase::{Phase, Phases, Workspace};
 use crate::energy::{self, Ledger};
 use crate::impacts::Impact;
@@ -108,6 +110,15 @@ impl PhaseRecord {
         });
     }
 
+    /// Modal displacements at each time, one row behind the other.
+    pub(crate) fn displacements(&self, times: &[f64], modes: usize) -> Vec<f64> {
+        dispatch(Displacements {
+            record: self,
+            times,
+            modes,
+        })
+    }
+
     /// A time derivative (0, 1 or 2) of one linear combination of the modal coordinates.
     pub(crate) fn project(&self, row: &[f64], times: &[f64], order: usize) -> Vec<f64> {
         dispatch(Projection {
@@ -168,7 +179,7 @@ impl PhaseRecord {
 
     /// Impacts of one law.
     pub(crate) fn impacts<L: Law>(&self, problem: &Problem<L>, law: usize) -> Vec<Impact> {
-        ContactReader::new(self, problem, law).impacts()
+        dispatch(ContactReader::new(self, problem, law))
     }
 }
 
@@ -194,5 +205,40 @@ impl Vectorised for Visit<'_, '_> {
             phases.motion::<I>(phase, time - phase.start, &mut work, &mut q, &mut v);
             (self.see)(*time, &q, &v, phases.states(phase));
         }
+    }
+}
+
+struct Displacements<'a> {
+    record: &'a PhaseRecord,
+    times: &'a [f64],
+    modes: usize,
+}
+
+impl Vectorised for Displacements<'_> {
+    type Output = Vec<f64>;
+    #[inline(always)]
+    fn run<I: Instructions>(self) -> Vec<f64> {
+        let phases = &self.record.phases;
+        let mut works: [Workspace; HALF] = Default::default();
+        let mut unused = vec![0.0; self.modes];
+        let mut rows = vec![0.0; self.times.len() * self.modes];
+        let (mut left, mut to) = (self.times, rows.as_mut_slice());
+        let mut number = 0;
+        while let Some(first) = left.first() {
+            number = self.record.phase_from(number, *first);
+            let phase = phases.list[number];
+            let mut since = [first - phase.start; HALF];
+            let mut count = 1;
+            while count < left.len().min(HALF)
+                && self.record.phase_from(number, left[count]) == number
+            {
+                since[count] = left[count] - phase.start;
+                count += 1;
+            }
+            let (own, others) = to.split_at_mut(count * self.modes);
+            phases.displacements::<I>(phase, &since[..count], &mut works, own, &mut unused);
+            (left, to) = (&left[count..], others);
+        }
+        rows
     }
 }
