@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hardening_spring import HardeningSpring
     from bumpstop.laws.hertz_stop import HertzStop
-    from bumpstop.laws.outside_program import OutsideProgram
     from bumpstop.laws.plane_stop import PlaneStop
     from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
@@ -179,7 +178,6 @@ __all__ = [
     "NodalForce",
     "NodalState",
     "Output",
-    "OutsideProgram",
     "PadScar",
     "Participation",
     "Periodicity",
@@ -326,7 +324,6 @@ _HOME = {
     "NodalForce": "loads.force",
     "NodalState": "loads.nodal_state",
     "Output": "study.outputs",
-    "OutsideProgram": "laws.outside_program",
     "PadScar": "post.scars",
     "Participation": "modal.masses",
     "Periodicity": "post.poincare",

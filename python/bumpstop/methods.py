@@ -72,7 +72,6 @@ def check_method(method: str, problem: Problem) -> None:
     _refuse_full_model(method, problem)
     _refuse_coupled_modes(method, problem)
     _refuse_rigid_stops(method, problem)
-    _refuse_stepped_laws(method, problem)
     _refuse_smooth_laws(method, problem)
 
 
@@ -150,17 +149,6 @@ def _refuse_rigid_stops(method: str, problem: Problem) -> None:
                     value=method,
                     hint=f"{' and '.join(RIGID_METHODS)} do",
                 )
-
-
-def _refuse_stepped_laws(method: str, problem: Problem) -> None:
-    """Raise where a program outside is to be asked once a step, by a method that asks more."""
-    if method == "symplectic_euler":
-        return
-    for law in problem.laws:
-        if getattr(law, "stepped", False):
-            what = f"does not take {law.name!r}: {smoothness(law)}, once a step"
-            hint = "symplectic_euler with a step dt does"
-            raise InputError(what, key="method", value=method, hint=hint)
 
 
 def _refuse_smooth_laws(method: str, problem: Problem) -> None:

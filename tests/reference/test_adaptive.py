@@ -237,7 +237,7 @@ def test_options_out_of_place_are_refused(method: str, options: dict[str, Any], 
 
 def test_rigid_stops_are_refused() -> None:
     problem = case_problem("ball-on-floor", "base")
-    with pytest.raises(bs.InputError, match=r"rigid stops.*exact method"):
+    with pytest.raises(bs.InputError, match=r"does not take rigid stops.*exact and moreau_jean do"):
         bs.simulate(problem, "rk54")
 
 

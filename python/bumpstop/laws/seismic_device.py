@@ -78,7 +78,7 @@ class SeismicDevice(Connection):
     ...     second_stiffness=0.53e6, threshold=1200.0, damping=7000.0, exponent=0.2, stroke=0.03,
     ... )
     >>> device.force([1e-5, 0.02]).round(1).tolist()
-    [59.9, 11694.0]
+    [59.9, 11693.9]
     """
 
     kind: ClassVar[str] = "device"

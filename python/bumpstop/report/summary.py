@@ -14,7 +14,6 @@ from bumpstop.laws import (
     Friction,
     HardeningSpring,
     HertzStop,
-    OutsideProgram,
     PlaneStop,
     PolarStop,
     RigidStop,
@@ -293,7 +292,7 @@ def _law(law: Law) -> str:
         gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
         forces = f"buckles at {with_unit(law.critical_force, 'N')}"
         return f"{law.name}: a {law.obstacle} {_pushing(law.coordinate)}, {gap}, {forces}"
-    if isinstance(law, UserLaw | OutsideProgram):
+    if isinstance(law, UserLaw):
         return f"{law.name}: a {law.kind} of the user's own {_where(law.coordinate)}"
     if isinstance(law, ForceRelation):
         where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"
