@@ -32,7 +32,7 @@ class HardeningSpring(Connection):
 
     With the elongation U and its plastic part Up the tension is ``F = K (U - Up)``. The curve is
     what a first, steady pull follows; its first point is the elastic limit, which tells K, and
-    beyond its last one the last slope goes on. Isotropic hardening: it yields where |F| reaches
+    beyond its last one the last slope goes on. Isotropic hardening: it yields where ``|F|`` reaches
     the force of the curve at the plastic elongation summed up so far. Kinematic hardening: it
     yields where F is the force at the elastic limit away from a centre that moves with Up; the
     curve then has two points, and springs side by side make more. The exact method takes it.

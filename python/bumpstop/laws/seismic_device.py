@@ -24,7 +24,7 @@ class SeismicDevice(Connection):
     """A prestressed viscous spring damper, as they protect buildings and piping.
 
     With the elongation x and its speed v the force on the node is ``-(f(x) + g(x, v))`` along the
-    direction, and the opposite on the other node:
+    direction, and the opposite on the other node::
 
         f = k2 x + (k1 - k2) x / sqrt(1 + (k1 x / threshold)^2)
         g = damping sign(v) |v x / stroke|^exponent
