@@ -439,7 +439,6 @@ def batch(
     displacements: tuple[bool, Array] | None = None,
     velocities: tuple[bool, Array] | None = None,
     loads: Array | None = None,
-    lanes: bool = False,
     threads: int = 1,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[Array, list[tuple[int, str]]]:
@@ -447,7 +446,6 @@ def batch(
 
     ``stops`` are (law, ``gap``, ``stiffness`` or ``damping``, one value a run), all of plain
     stops. ``displacements`` and ``velocities`` are (True, factors of those of the problem) or
-    (False, a number for each mode of each run, run by run); ``loads`` are factors. With ``lanes``
-    eight runs are made at a time where all of them are of the common shape. Returns the numbers of
-    each run, (run, number), and those runs that failed, each with its message.
+    (False, a number for each mode of each run, run by run); ``loads`` are factors. Returns the
+    numbers of each run, (run, number), and those runs that failed, each with its message.
     """

@@ -126,8 +126,8 @@ fn unknown(what: &str, name: &str) -> PyErr {
 /// number), and those runs that failed with their messages.
 #[pyfunction]
 #[pyo3(signature = (system, laws, forcing, displacement, velocity, duration, quantities, runs,
-                    stops, displacements=None, velocities=None, loads=None, lanes=false,
-                    threads=1, progress=None))]
+                    stops, displacements=None, velocities=None, loads=None, threads=1,
+                    progress=None))]
 #[allow(clippy::too_many_arguments)] // mirrors the Python signature
 #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
 pub fn batch<'py>(
@@ -144,7 +144,6 @@ pub fn batch<'py>(
     displacements: Option<(bool, Column<'_>)>,
     velocities: Option<(bool, Column<'_>)>,
     loads: Option<Column<'_>>,
-    lanes: bool,
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Found<'py>> {
@@ -159,7 +158,6 @@ pub fn batch<'py>(
     let kept = quantities.iter().map(|quantity| quantity.0.clone());
     let batch = problem.and_then(|problem| core::Batch::new(problem, kept.collect()));
     let batch = batch.map_err(core_error)?;
-    let batch = if lanes { batch.in_lanes() } else { batch };
     let parameters = Parameters {
         runs,
         stops: stop_values(&stops)?,

@@ -33,7 +33,6 @@ def batch(
     parameters: Mapping[str, ArrayLike],
     outputs: Mapping[str, Output],
     *,
-    lanes: bool = True,
     workers: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
@@ -55,12 +54,6 @@ def batch(
         What to keep of each run, by a name of your own: quantities at given times or with the
         statistic ``last``, numbers and statistics of impacts but for ``mean`` and ``rms``, and
         numbers of the whole run.
-    lanes
-        Make eight runs at a time in the vector registers where the problem has one stop without
-        damper or friction, constant loads and lightly damped modes, and what is kept are
-        quantities at times, instants and speeds of impacts, or counts. Numbers then differ from
-        those of `simulate` by rounding, some 1e-15 of the largest; without lanes they are the
-        same to the bit, and take some three times as long.
     workers
         How many threads; as many as there are cores where left out. Results do not depend on it,
         to the last bit, nor on the order of the runs.
@@ -125,7 +118,6 @@ def batch(
             None if displacements is None else (True, displacements),
             None if velocities is None else (True, velocities),
             columns.get("loads"),
-            lanes=lanes,
             threads=usable_cores() if workers is None else count("workers", workers),
             progress=progress,
         )

@@ -4,7 +4,6 @@
 //! A run depends on its own numbers alone. No bit of it depends on how many threads there are, on
 //! the runs beside it or on their order.
 
-mod lanes;
 mod parameters;
 mod quantity;
 mod reading;
@@ -17,9 +16,7 @@ pub use workers::Progress;
 use crate::error::{Error, Result};
 use crate::law::AnyLaw;
 use crate::method::{check_linear, piecewise_linear};
-use crate::number::dispatch;
 use crate::problem::Problem;
-use lanes::{Bench, Common, Part};
 use reading::Reading;
 use std::sync::Arc;
 
@@ -29,8 +26,6 @@ pub struct Batch {
     problem: Problem<AnyLaw>,
     quantities: Vec<Quantity>,
     width: usize,
-    /// What lanes need, where they are asked for and can make the runs.
-    common: Option<Box<Common>>,
 }
 
 /// A run that could not be made.
@@ -58,15 +53,7 @@ impl Batch {
             problem,
             quantities,
             width,
-            common: None,
         })
-    }
-
-    /// The same, eight runs at a time where the problem and what is asked for allow it. Results
-    /// differ from those of single runs by rounding, and no event does.
-    pub fn in_lanes(mut self) -> Self {
-        self.common = Common::of(&self.problem, &self.quantities).map(Box::new);
-        self
     }
 
     /// How many numbers are kept of each run.
@@ -110,29 +97,13 @@ impl Batch {
         desk: &mut Desk,
         failures: &mut Vec<Failure>,
     ) {
-        let mut left = std::mem::take(&mut desk.left);
-        left.clear();
-        match (&self.common, &mut desk.bench) {
-            (Some(common), Some(bench)) => dispatch(Part {
-                common,
-                problem: &self.problem,
-                parameters,
-                first,
-                values,
-                bench,
-                left: &mut left,
-            }),
-            _ => left.extend(0..values.len() / self.width),
-        }
-        for number in &left {
+        for (number, row) in values.chunks_exact_mut(self.width).enumerate() {
             let run = first + number;
-            let row = &mut values[number * self.width..(number + 1) * self.width];
             if let Err(error) = self.single(parameters, run, row, desk) {
                 row.fill(f64::NAN);
                 failures.push(Failure { run, error });
             }
         }
-        desk.left = left;
     }
 
     /// Makes one run as [`crate::method::simulate`] does.
@@ -161,17 +132,12 @@ impl Batch {
 struct Desk {
     /// The problem with the numbers of the present run.
     problem: Arc<Problem<AnyLaw>>,
-    bench: Option<Bench>,
-    /// Runs of a part that are made by themselves, counted from its first.
-    left: Vec<usize>,
 }
 
 impl Desk {
     fn new(batch: &Batch) -> Self {
         Self {
             problem: Arc::new(batch.problem.clone()),
-            bench: batch.common.as_ref().map(|common| common.bench()),
-            left: Vec::new(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What varies from run to run.
 
 use crate::error::{Error, Result, check_finite, check_length};
-use crate::law::{AnyLaw, Stop};
+use crate::law::AnyLaw;
 use crate::problem::Problem;
 
 /// Which number of a stop.
@@ -75,16 +75,6 @@ impl Parameters<'_> {
         }
     }
 
-    /// Gap, stiffness and damping of the only law in a run, none of them checked.
-    #[inline(always)]
-    pub(super) fn stop(&self, run: usize, base: &Stop) -> [f64; 3] {
-        let mut numbers = [base.gap(), base.stiffness(), base.damping()];
-        for stop in &self.stops {
-            numbers[stop.number as usize] = stop.values[run];
-        }
-        numbers
-    }
-
     /// Sets a problem to the numbers of one run; `base` has those that do not vary.
     pub(super) fn set(
         &self,
@@ -117,16 +107,6 @@ impl Parameters<'_> {
 }
 
 impl Start<'_> {
-    /// The number of one mode in a run.
-    #[inline(always)]
-    pub(super) fn of(&self, run: usize, base: &[f64], mode: usize) -> f64 {
-        match self {
-            Start::Same => base[mode],
-            Start::Scaled(factors) => factors[run] * base[mode],
-            Start::Given(rows) => rows[run * base.len() + mode],
-        }
-    }
-
     pub(super) fn set(&self, run: usize, base: &[f64], to: &mut [f64]) {
         match self {
             Start::Same => {}

@@ -50,10 +50,7 @@ mod works;
 
 pub use enclosure::Enclosure;
 pub use jet::{Jet, Jets, Verdict};
-pub(crate) use poles::{Eigenvalue, Nearest};
 pub use record::PhaseRecord;
-pub(crate) use rows::ComplexBlock;
-pub(crate) use secular::middle_way;
 
 use super::instant::{self, Moment};
 use super::{Observer, check_linear, observe};
