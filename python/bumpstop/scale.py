@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
     from bumpstop.problem import Law, Problem
 
-__all__ = ["out_of_scale", "too_stiff"]
+__all__ = ["out_of_scale", "stiffest", "too_stiff"]
 
 STIFFEST = 1e10
 """Stiffness of a law beside that of the stiffest mode where it acts."""
@@ -78,13 +78,12 @@ def too_stiff(problem: Problem) -> InputError | None:
     stops.wall.stiffness: is more than the instants of a run of 10 s can tell, which is \
 1e+24 N/m here (got 1e+30); check its unit, or take a rigid stop
     """
+    known = stiffest(problem)
     for law in problem.laws:
-        stiffness = getattr(law, "stiffness", None)
-        if stiffness is None:
+        most = known.get(law.name)
+        if most is None:
             continue
-        row = law.coordinate.row(problem.basis)
-        with np.errstate(all="ignore"):
-            most = (MOST_TURNS / problem.duration) ** 2 / float(row @ row)
+        stiffness = getattr(law, "stiffness", 0.0)
         if np.max(stiffness) > most:
             what = (
                 f"is more than the instants of a run of {problem.duration:g} s can tell, "
@@ -95,6 +94,28 @@ def too_stiff(problem: Problem) -> InputError | None:
                 what, key=f"{law.table}.{law.name}.stiffness", value=stiffness, hint=hint
             )
     return None
+
+
+def stiffest(problem: Problem) -> dict[str, float]:
+    """Return the stiffness in N/m up to which the instants of the run tell contacts, of each stop.
+
+    Those of laws along one coordinate; others have no entry.
+
+    Examples
+    --------
+    >>> import bumpstop as bs
+    >>> basis = bs.ModalBasis.from_modes(frequency=[0.0], shapes={("P", "dx"): [1.0]})
+    >>> wall = bs.Stop("wall", node="P", normal=(1, 0, 0), stiffness=1e6)
+    >>> stiffest(bs.Problem(basis, laws=[wall], duration=10.0))
+    {'wall': 1e+24}
+    """
+    most = {}
+    for law in problem.laws:
+        if getattr(law, "stiffness", None) is not None:
+            row = law.coordinate.row(problem.basis)
+            with np.errstate(all="ignore"):
+                most[law.name] = (MOST_TURNS / problem.duration) ** 2 / float(row @ row)
+    return most
 
 
 def _findings(problem: Problem) -> Iterator[_Finding]:

@@ -157,6 +157,22 @@ def test_a_failed_run_is_told_and_the_others_go_on() -> None:
     assert np.isnan(found.force.values).tolist() == [False, True, False, True]
 
 
+def test_a_stop_too_stiff_for_the_run_fails_in_every_way(tmp_path: Path) -> None:
+    found = bs.batch(ball(), {"stops.wall.stiffness": [100.0, 1e30, 1e150]}, KEPT)
+    assert found.failed.values.tolist() == [False, True, True]
+    assert "tell no more than" in str(found.message.values[1])
+    bouncing = bs.load_study(written(tmp_path))
+    force = {"force": bs.Output(quantity="peak_force", stop="spring", statistic="maximum")}
+    study = bs.Study(bouncing.case, {"stops.spring.stiffness": [100.0, 1e30, 1e150]}, force)
+    columns = {"stops.spring.stiffness": [100.0, 1e30, 1e150]}
+    in_core, in_python = Evaluator(study.recipe), Evaluator(study.recipe)
+    in_python._asks_core = False
+    one, other = in_core.kept(columns), in_python.kept(columns)
+    assert in_core._core is not None
+    assert one.messages == other.messages
+    assert one.status.tolist() == other.status.tolist() == [1, 2, 2]
+
+
 def test_progress_may_end_it() -> None:
     class EnoughError(Exception):
         pass

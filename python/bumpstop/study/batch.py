@@ -13,6 +13,7 @@ from bumpstop.canonical import canonical_form
 from bumpstop.errors import InputError
 from bumpstop.methods import check_method
 from bumpstop.problem import Problem
+from bumpstop.scale import stiffest, too_stiff
 from bumpstop.study.core_outputs import core_quantity
 from bumpstop.study.core_runs import STOP_NUMBERS
 from bumpstop.study.outputs import Output
@@ -93,14 +94,20 @@ def batch(
     columns = _columns(parameters)
     runs = len(next(iter(columns.values())))
     quantities = _quantities(problem, outputs)
+    if (blamed := too_stiff(problem)) is not None:
+        raise blamed
     model = canonical_form(problem)
     stops = {law.name: number for number, law in enumerate(problem.laws)}
     plain = [name for name, number in stops.items() if type(model.laws[number]) is _core.Stop]
-    varied = []
+    varied, most = [], stiffest(problem)
+    refused: dict[int, str] = {}
     for key, values in columns.items():
         if key not in _FACTORS:
             stop, number = _stop_number(key, plain)
-            varied.append((stops[stop], number, values))
+            stiff = values > most[stop] if number == "stiffness" else np.zeros(runs, dtype=bool)
+            told = f"{key}: the run's instants tell no more than {most[stop]:.2g} N/m"
+            refused |= {int(run): f"{told} (got {values[run]:g})" for run in np.flatnonzero(stiff)}
+            varied.append((stops[stop], number, np.where(stiff, np.nan, values)))
     displacements, velocities = (
         columns.get(f"initial.{key}") for key in ("displacement", "velocity")
     )
@@ -123,7 +130,8 @@ def batch(
         )
     except _core.CoreError as error:
         raise InputError(str(error), key="problem") from error
-    return _labelled(columns, outputs, found, failed)
+    told_of = [(run, refused.get(run, message)) for run, message in failed]
+    return _labelled(columns, outputs, found, told_of)
 
 
 def _columns(parameters: Mapping[str, ArrayLike]) -> dict[str, FloatArray]:

@@ -14,7 +14,8 @@ import numpy as np
 from bumpstop import _core
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import BumpstopError
-from bumpstop.simulate import MOST_ENERGY
+from bumpstop.scale import stiffest, too_stiff
+from bumpstop.simulate import LARGEST_RESIDUAL, MOST_ENERGY
 from bumpstop.study.core_outputs import core_quantities
 
 if TYPE_CHECKING:
@@ -72,6 +73,8 @@ class CoreRuns:
         What is kept.
     laws
         Number of each stop by name.
+    most
+        The stiffness of each stop up to which the run can be made.
     """
 
     def __init__(
@@ -80,10 +83,13 @@ class CoreRuns:
         duration: float,
         quantities: Mapping[str, _core.Quantity],
         laws: Mapping[str, int],
+        most: Mapping[str, float],
     ) -> None:
         self._model = model
         self._duration = duration
-        self._quantities = quantities
+        self._most = most
+        # What `simulate` looks at in each run is read behind what is kept.
+        self._quantities = [*quantities.values(), _core.Quantity.of_run("energy_residual")]
         self._laws = laws
 
     @classmethod
@@ -94,8 +100,10 @@ class CoreRuns:
         quantities = core_quantities(problem, outputs)
         if method not in ("auto", "exact") or not plain or quantities is None:
             return None
+        if too_stiff(problem) is not None:
+            return None
         laws = {law.name: number for number, law in enumerate(problem.laws)}
-        return cls(model, problem.duration, quantities, laws)
+        return cls(model, problem.duration, quantities, laws, stiffest(problem))
 
     def made(
         self,
@@ -125,6 +133,8 @@ class CoreRuns:
             if where is not None:
                 stop, number = where
                 values = _numbers(levels, number, good)
+                if number == "stiffness":
+                    good &= values <= self._most[stop]
                 stops.append((self._laws[stop], number, values))
         of_start = {name: levels for name, levels in columns.items() if _is_of_start(name)}
         displacements = velocities = None
@@ -138,7 +148,7 @@ class CoreRuns:
             model.displacement,
             model.velocity,
             self._duration,
-            list(self._quantities.values()),
+            self._quantities,
             len(chosen),
             [(law, number, column[chosen]) for law, number, column in stops],
             None if displacements is None else (False, displacements[chosen].ravel()),
@@ -146,6 +156,7 @@ class CoreRuns:
             threads=threads,
         )
         good[chosen[[run for run, _ in failed]]] = False
+        good[chosen] &= values[:, -1] <= LARGEST_RESIDUAL
         found, place = {}, 0
         for name, shape in shapes.items():
             width = int(np.prod(shape, dtype=int))
