@@ -138,7 +138,7 @@ impl Springs {
         let (values, axes) = (eigen.values, eigen.vectors);
         let mut seen = vec![0.0; self.stride];
         let mut starts = Vec::with_capacity(n);
-        for j in 0..n {
+        for (j, value) in values.iter().enumerate() {
             let axis = axes.col(j);
             let (mut damping, mut mode) = (0.0, 0);
             seen.fill(0.0);
@@ -155,9 +155,9 @@ impl Springs {
             for (seen, c) in seen.iter().zip(&self.dampers) {
                 damping += c * seen * seen;
             }
-            let rate2 = values[j] - 0.25 * damping * damping;
+            let rate2 = *value - 0.25 * damping * damping;
             // Written so that what is no number has no root.
-            let oscillates = rate2 > 0.0 && values[j] >= slow * slow;
+            let oscillates = rate2 > 0.0 && *value >= slow * slow;
             if !oscillates {
                 return None;
             }
