@@ -49,10 +49,13 @@ format: $(STAMPS)/dev ## Bring Python and Rust into the house style
 # numbalsoda comes as source: pip builds it with cmake and a Fortran compiler.
 bench: $(STAMPS)/byte-code $(STAMPS)/dev $(STAMPS)/bench ## Measure the speed beside other solvers
 	$(BIN)/python benchmarks/sdnl32.py
+	$(BIN)/python benchmarks/batch.py
+	$(BIN)/python benchmarks/bifurcation.py
 	$(BIN)/python benchmarks/several_stops.py
 	$(BIN)/python benchmarks/startup.py
 	$(BIN)/python benchmarks/eigen.py
 	$(BIN)/python benchmarks/assembly.py
+	$(BIN)/python benchmarks/full_model.py
 
 docs: $(STAMPS)/core $(STAMPS)/docs ## Build the documentation, running its examples
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet \

@@ -6,6 +6,7 @@ import re
 import sys
 from pathlib import Path
 
+import plotly
 from sphinx.application import Sphinx
 
 import bumpstop
@@ -46,7 +47,8 @@ exclude_patterns = ["_build", "_ext"]
 
 html_theme = "furo"
 html_title = "bumpstop"
-html_static_path = ["_static"]
+# The drawings of the pages are those of the package, and work without a network.
+html_static_path = ["_static", str(Path(plotly.__file__).parent / "package_data" / "plotly.min.js")]
 html_css_files = ["bumpstop.css"]
 html_math_renderer = "mathml"
 html_copy_source = False

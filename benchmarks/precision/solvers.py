@@ -12,7 +12,7 @@ from benchmarks.precision.ladders import Solver
 from benchmarks.precision.problems import INSTANTS, Watched
 from bumpstop import _core
 from bumpstop.canonical import canonical_form
-from bumpstop.methods import ADAPTIVE_METHODS, FIXED_STEP_METHODS
+from bumpstop.methods import FIXED_STEP_METHODS, TOLERANCE_METHODS
 from tests.reference.problem import Array
 
 RUNGS = 9
@@ -27,8 +27,11 @@ def solvers(problem: Watched) -> Iterator[Solver]:
     for method in FIXED_STEP_METHODS:
         steps = _steps(problem, method)
         yield Solver(method, steps, _Stepped(problem, method), has_order=True)
-    for method in ADAPTIVE_METHODS:
+    for method in TOLERANCE_METHODS:
         yield Solver(method, TOLERANCES, _Tolerant(problem, method))
+    points = [1.0 / (50.0 * 2**rung) for rung in range(RUNGS)]
+    name = "adaptive_central_difference"
+    yield Solver(name, points, _Resolving(problem, name), has_order=True)
     for name in ("RK45", "DOP853", "LSODA"):
         yield Solver(f"SciPy {name}", TOLERANCES, _Scipy(problem, name))
     if importlib.util.find_spec("sksundae"):
@@ -42,6 +45,12 @@ def solvers(problem: Watched) -> Iterator[Solver]:
         steps = _steps(problem, "newmark")
         alpha = GeneralizedAlpha(problem)
         yield Solver("Exudyn generalised alpha", steps, alpha, has_order=True)
+    if importlib.util.find_spec("openseespy"):
+        from benchmarks.precision.opensees_newmark import Newmark, fits
+
+        if fits(problem):
+            steps = _steps(problem, "newmark")
+            yield Solver("OpenSees Newmark", steps, Newmark(problem), has_order=True)
 
 
 def _steps(problem: Watched, method: str) -> list[float]:
@@ -58,7 +67,7 @@ def _steps(problem: Watched, method: str) -> list[float]:
 
 def _own(problem: Watched, method: str, **options: float) -> Array:
     form = canonical_form(problem.problem)
-    step, rtol = options.get("dt"), options.get("rtol")
+    step, rtol, period = (options.get(name) for name in ("dt", "rtol", "part_of_period"))
     history = _core.simulate(
         form.system,
         form.laws,
@@ -69,6 +78,7 @@ def _own(problem: Watched, method: str, **options: float) -> Array:
         method,
         step,
         tolerances=None if rtol is None else (rtol, None),
+        parameters={"points_per_period": 1.0 / period} if period is not None else {},
     )
     return history.project(problem.row, problem.times, 0)
 
@@ -93,6 +103,17 @@ class _Tolerant:
     def __call__(self, rtol: float) -> Array:
         """Run it."""
         return _own(self._problem, self._method, rtol=rtol)
+
+
+class _Resolving:
+    """A method of this program that takes a part of the shortest visible period as a step."""
+
+    def __init__(self, problem: Watched, method: str) -> None:
+        self._problem, self._method = problem, method
+
+    def __call__(self, part_of_period: float) -> Array:
+        """Run it."""
+        return _own(self._problem, self._method, part_of_period=part_of_period)
 
 
 class _Scipy:

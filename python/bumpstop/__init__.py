@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from bumpstop.continued import continued
     from bumpstop.errors import BumpstopError, ComputationError, InputError, ModellingWarning
     from bumpstop.io.case import Case, load_case
+    from bumpstop.io.curves import read_curves
     from bumpstop.io.matrices import read_matrices, write_matrices
     from bumpstop.io.meshes import read_mesh
     from bumpstop.io.modes import identify_modes, read_modes
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hardening_spring import HardeningSpring
     from bumpstop.laws.hertz_stop import HertzStop
+    from bumpstop.laws.outside_program import OutsideProgram
     from bumpstop.laws.plane_stop import PlaneStop
     from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
@@ -95,6 +97,21 @@ if TYPE_CHECKING:
     from bumpstop.post.wear import ArchardWear, EdfWear, KwuEpriWear, WearWork, wear, wear_work
     from bumpstop.problem import Problem
     from bumpstop.report.arrays import plot
+    from bumpstop.report.drawings import (
+        draw_energy,
+        draw_friction_loop,
+        draw_history,
+        draw_loop,
+        draw_orbit,
+        draw_phase_portrait,
+        draw_scene,
+        draw_section,
+        draw_sectors,
+    )
+    from bumpstop.report.modes_drawn import draw_modes
+    from bumpstop.report.studies.bars import sobol_chart, tornado_chart
+    from bumpstop.report.studies.grids import basin_map, heat_map
+    from bumpstop.report.studies.points import bifurcation_diagram
     from bumpstop.response import Response
     from bumpstop.simulate import simulate
     from bumpstop.structure.beam import Beam
@@ -113,15 +130,19 @@ if TYPE_CHECKING:
     from bumpstop.structure.spring import Spring
     from bumpstop.structure.structure import Structure
     from bumpstop.structure.support import Support
+    from bumpstop.study.basins import Basins
     from bumpstop.study.batch import batch
     from bumpstop.study.continuation import continuation
     from bumpstop.study.convergence import Convergence, converge
+    from bumpstop.study.follow import follow
     from bumpstop.study.load import load_study
     from bumpstop.study.outputs import Output
     from bumpstop.study.parameters import Distribution, Range, Values
     from bumpstop.study.sampling import Sampling
     from bumpstop.study.sensitivity import sobol_indices
+    from bumpstop.study.single import write_case
     from bumpstop.study.study import Study, open_study, study
+    from bumpstop.study.tornado import one_at_a_time
     from bumpstop.study.worst import WorstCase, worst_case
 
 __version__ = "0.1.0"
@@ -132,6 +153,7 @@ __all__ = [
     "ArchardWear",
     "Assembly",
     "BaseMotion",
+    "Basins",
     "Beam",
     "Bearing",
     "BucklingStop",
@@ -178,6 +200,7 @@ __all__ = [
     "NodalForce",
     "NodalState",
     "Output",
+    "OutsideProgram",
     "PadScar",
     "Participation",
     "Periodicity",
@@ -228,8 +251,10 @@ __all__ = [
     "WorstCase",
     "ZenerDamper",
     "amplitude_spectrum",
+    "basin_map",
     "batch",
     "bifurcation",
+    "bifurcation_diagram",
     "campbell",
     "complex_modes",
     "contact_impacts",
@@ -238,19 +263,33 @@ __all__ = [
     "continued",
     "converge",
     "craig_bampton",
+    "draw_energy",
+    "draw_friction_loop",
+    "draw_history",
+    "draw_loop",
+    "draw_modes",
+    "draw_orbit",
+    "draw_phase_portrait",
+    "draw_scene",
+    "draw_section",
+    "draw_sectors",
     "envelope",
+    "follow",
     "free_interface",
     "generalised_mass",
+    "heat_map",
     "identify_modes",
     "impact_section",
     "load_case",
     "load_study",
     "lyapunov_exponents",
+    "one_at_a_time",
     "open_study",
     "participation",
     "periodicity",
     "plot",
     "power_spectral_density",
+    "read_curves",
     "read_matrices",
     "read_mesh",
     "read_modes",
@@ -261,14 +300,17 @@ __all__ = [
     "sampled_impacts",
     "signal_statistics",
     "simulate",
+    "sobol_chart",
     "sobol_indices",
     "spectrogram",
     "stroboscopic_section",
     "study",
+    "tornado_chart",
     "wear",
     "wear_work",
     "work_by_sector",
     "worst_case",
+    "write_case",
     "write_matrices",
 ]
 
@@ -278,6 +320,7 @@ _HOME = {
     "ArchardWear": "post.wear",
     "Assembly": "modal.substructure.assembly",
     "BaseMotion": "loads.base_motion",
+    "Basins": "study.basins",
     "Beam": "structure.beam",
     "Bearing": "structure.bearing",
     "BucklingStop": "laws.buckling_stop",
@@ -298,8 +341,8 @@ _HOME = {
     "FlatScar": "post.scars",
     "ForceRelation": "laws.force_relation",
     "FrequencyResponse": "modal.frequency_response",
-    "FullModel": "modal.full",
     "Friction": "laws.friction",
+    "FullModel": "modal.full",
     "Gauge": "structure.gauge",
     "GeneralSection": "structure.sections.general",
     "Gravity": "loads.gravity",
@@ -324,12 +367,13 @@ _HOME = {
     "NodalForce": "loads.force",
     "NodalState": "loads.nodal_state",
     "Output": "study.outputs",
+    "OutsideProgram": "laws.outside_program",
     "PadScar": "post.scars",
     "Participation": "modal.masses",
     "Periodicity": "post.poincare",
     "Placed": "modal.substructure.placed",
-    "PointMass": "structure.mass",
     "PlaneStop": "laws.plane_stop",
+    "PointMass": "structure.mass",
     "PolarStop": "laws.polar_stop",
     "Polynomial": "loads.time",
     "Problem": "problem",
@@ -374,8 +418,10 @@ _HOME = {
     "WorstCase": "study.worst",
     "ZenerDamper": "laws.zener_damper",
     "amplitude_spectrum": "post.signals",
+    "basin_map": "report.studies.grids",
     "batch": "study.batch",
     "bifurcation": "post.poincare",
+    "bifurcation_diagram": "report.studies.points",
     "campbell": "modal.rotor",
     "complex_modes": "modal.oscillation",
     "contact_impacts": "post.contacts",
@@ -384,14 +430,27 @@ _HOME = {
     "continued": "continued",
     "converge": "study.convergence",
     "craig_bampton": "modal.substructure.craig_bampton",
+    "draw_energy": "report.drawings",
+    "draw_friction_loop": "report.drawings",
+    "draw_history": "report.drawings",
+    "draw_loop": "report.drawings",
+    "draw_modes": "report.modes_drawn",
+    "draw_orbit": "report.drawings",
+    "draw_phase_portrait": "report.drawings",
+    "draw_scene": "report.drawings",
+    "draw_section": "report.drawings",
+    "draw_sectors": "report.drawings",
     "envelope": "post.signals",
+    "follow": "study.follow",
     "free_interface": "modal.substructure.free_interface",
     "generalised_mass": "modal.masses",
+    "heat_map": "report.studies.grids",
     "identify_modes": "io.modes",
     "impact_section": "post.poincare",
     "load_case": "io.case",
     "load_study": "study.load",
     "lyapunov_exponents": "post.lyapunov",
+    "one_at_a_time": "study.tornado",
     "open_study": "study.study",
     "participation": "modal.masses",
     "periodicity": "post.poincare",
@@ -400,6 +459,7 @@ _HOME = {
     "read_matrices": "io.matrices",
     "read_mesh": "io.meshes",
     "read_modes": "io.modes",
+    "read_curves": "io.curves",
     "read_netcdf": "io.stored",
     "read_results": "io.stored",
     "recovery": "post.recovery",
@@ -407,14 +467,17 @@ _HOME = {
     "sampled_impacts": "post.sampled",
     "signal_statistics": "post.streams",
     "simulate": "simulate",
+    "sobol_chart": "report.studies.bars",
     "sobol_indices": "study.sensitivity",
     "spectrogram": "post.signals",
     "stroboscopic_section": "post.poincare",
     "study": "study.study",
+    "tornado_chart": "report.studies.bars",
     "wear": "post.wear",
     "wear_work": "post.wear",
     "work_by_sector": "post.sectors",
     "worst_case": "study.worst",
+    "write_case": "study.single",
     "write_matrices": "io.matrices",
 }
 """Where each public name lives."""

@@ -125,9 +125,18 @@ class RigidStop:
     """A rigid obstacle at distance ``d = gap + row . q``, with a coefficient of restitution."""
 
     def __init__(
-        self, row: Array, gap: float, restitution: float, resolution: float | None = None
+        self,
+        row: Array,
+        gap: float,
+        restitution: float,
+        resolution: float | None = None,
+        tangent: Array | None = None,
+        friction: float = 0.0,
     ) -> None:
-        """Rebounds lower than ``resolution`` of the motion, 1e-12 if left out, end in rest."""
+        """Rebounds lower than ``resolution`` of the motion, 1e-12 if left out, end in rest.
+
+        With a ``tangent`` it rubs along ``tangent . q``, which the method of Moreau and Jean takes.
+        """
 
 class FrictionStop:
     """A stop that rubs along the coordinate ``tangent . q``, by a spring that can slide."""
@@ -321,6 +330,8 @@ class History:
     def contact_forces(self, law: int, times: Array) -> Array:
         """Return the force along the normal of the contact and across it, (time, 3)."""
 
+    def internal_variables(self, law: int, times: Array) -> Array:
+        """Return what a law remembers, brought up to the motion, (time, 2); NaN where nothing."""
     def law_states(self, law: int, times: Array) -> list[str]:
         """Name of one law's state at each time."""
     def energy(self, times: Array) -> dict[str, Array]:
@@ -388,8 +399,8 @@ def simulate(
     """Integrate; releases the GIL.
 
     ``method`` is ``exact``, one with fixed steps, which needs ``dt`` and may have ``parameters``,
-    or ``rk32``, ``rk54`` or ``dop853``, which need ``tolerances``, the relative and the absolute
-    one.
+    ``rk32``, ``rk54``, ``dop853`` or ``exprk43``, which need ``tolerances``, the relative and the
+    absolute one, or ``adaptive_central_difference``, with its own parameter.
     ``progress`` is called with the fraction done, about ten times a second.
     """
 
@@ -420,6 +431,9 @@ class Quantity:
         ``maximum``, ``minimum``, ``peak`` or ``last``; NaN where there is none.
         """
     @staticmethod
+    def last_impacts(law: int, column: str, count: int) -> Quantity:
+        """Return a number of each of the last impacts; NaN in front where there are fewer."""
+    @staticmethod
     def impact_count(law: int | None = None) -> Quantity:
         """How many impacts there are on a law, or on all."""
     @staticmethod
@@ -439,6 +453,9 @@ def batch(
     displacements: tuple[bool, Array] | None = None,
     velocities: tuple[bool, Array] | None = None,
     loads: Array | None = None,
+    pace: Array | None = None,
+    chain: int = 1,
+    lanes: bool = False,
     threads: int = 1,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[Array, list[tuple[int, str]]]:
@@ -446,6 +463,9 @@ def batch(
 
     ``stops`` are (law, ``gap``, ``stiffness`` or ``damping``, one value a run), all of plain
     stops. ``displacements`` and ``velocities`` are (True, factors of those of the problem) or
-    (False, a number for each mode of each run, run by run); ``loads`` are factors. Returns the
-    numbers of each run, (run, number), and those runs that failed, each with its message.
+    (False, a number for each mode of each run, run by run); ``loads`` are factors.
+    ``pace`` tells how many times as fast loads are; runs and instants are as much shorter. Of each
+    ``chain`` of runs each but the first starts where the one before it ended. With ``lanes`` eight
+    runs are made at a time where all of them are of the common shape. Returns the numbers of
+    each run, (run, number), and those runs that failed, each with its message.
     """

@@ -41,7 +41,11 @@ def contact_warnings(problem: Problem) -> tuple[str, ...]:
         for law in problem.laws
         if isinstance(getattr(law, "gap", None), float) or hasattr(law, "gap_at")
     ]
-    return (*_too_stiff(problem.basis, stops), *_pressed(problem, stops))
+    return (
+        *_too_stiff(problem.basis, stops),
+        *_pressed(problem, stops),
+        *_out_of_balance(problem),
+    )
 
 
 def missing_flexibility(basis: ModalBasis, laws: Sequence[Law]) -> FloatArray:
@@ -112,6 +116,20 @@ def _flexibilities(basis: ModalBasis, rows: FloatArray) -> FloatArray:
     bends = basis.omega2 > 0.0
     flexible: FloatArray = np.where(bends, rows**2 / np.where(bends, basis.omega2, 1.0), 0.0)
     return flexible
+
+
+def _out_of_balance(problem: Problem) -> Iterator[str]:
+    """Yield a line for each law with a force at rest that an equilibrium leaves out."""
+    if not getattr(problem.initial, "may_press", False) or not hasattr(problem.initial, "laws"):
+        return
+    initial: Any = problem.initial
+    taking_part = {law.name for law in initial.laws}
+    for law in problem.laws:
+        if law.name not in taking_part and hasattr(law, "static_force"):
+            yield (
+                f"{law.name!r} takes no part in the equilibrium at the start, and pushes at once "
+                "where it has a force there; give it to StaticState(laws=...)"
+            )
 
 
 def _start(basis: ModalBasis, stop: Law, place: FloatArray | None) -> tuple[float, float]:

@@ -84,7 +84,7 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
         what = f"must be within the run, 0 to {problem.duration:g} s"
         raise InputError(what, key="at", value=at)
     for law in problem.laws:
-        _refuse_memory(response, law, instant)
+        _refuse_rubbing(response, law, instant)
     motion = [response.motion(order, [instant])[0] for order in (0, 1)]
     place, speed = (problem.basis.amplitudes(each) for each in motion)
     return replace(
@@ -97,14 +97,19 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
     )
 
 
-def _refuse_memory(response: Response, law: Law, instant: float) -> None:
-    """Raise where a law remembers what the state of the modes does not tell."""
+def refuse_memory(law: Law) -> None:
+    """Raise where a law remembers what the motion does not tell, but for friction."""
     from bumpstop import laws as known
 
     # By exact kind: what is made of these may remember more.
     if type(law) not in {getattr(known, name) for name in _FORGETFUL}:
         what = "remembers more than the motion tells, and a new run would forget it"
         raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
+
+
+def _refuse_rubbing(response: Response, law: Law, instant: float) -> None:
+    """Raise where a law remembers what the state of the modes does not tell."""
+    refuse_memory(law)
     if getattr(law, "friction", None) is None:
         return
     state = str(response.sample("state", law.name, times=[instant])[0])

@@ -6,15 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.quantities import QUANTITIES, modal_attributes
+from bumpstop.quantities import INTERNAL_VARIABLES, QUANTITIES, modal_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from bumpstop.arguments import FloatArray
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.response import Response
 
-__all__ = ["modes_over_time", "over_time", "time_coordinate"]
+__all__ = ["internal_variables", "modes_over_time", "over_time", "time_coordinate"]
 
 
 def time_coordinate(times: FloatArray) -> xr.Variable:
@@ -36,6 +37,24 @@ def over_time(
         name=quantity,
         attrs=QUANTITIES[quantity].attributes | attributes,
     )
+
+
+def internal_variables(response: Response, name: str) -> xr.Dataset:
+    """Return what a law remembers; see `Response.internal_variables`."""
+    import xarray as xr
+
+    law = response.problem.laws[response.law_index(name)]
+    # Where it remembers nothing, the first reading says so.
+    names: tuple[str, ...] = getattr(law, "internal_variables", ()) or ("memory",)
+    found = {
+        each: (
+            "time",
+            response.sample("internal_variable", name, each),
+            INTERNAL_VARIABLES[each].attributes,
+        )
+        for each in names
+    }
+    return xr.Dataset(found, {"time": time_coordinate(response.times)}, {"law": name})
 
 
 def modes_over_time(

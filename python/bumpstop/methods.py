@@ -17,7 +17,9 @@ __all__ = [
     "ONE_STEP_METHODS",
     "OPTIONS",
     "PARAMETERS",
+    "POINTS_PER_PERIOD",
     "RTOL",
+    "TOLERANCE_METHODS",
     "check_method",
     "check_options",
     "checked_parameters",
@@ -35,7 +37,7 @@ class Range(NamedTuple):
 
 EXPLICIT_METHODS = ("symplectic_euler", "central_difference")
 """Marches that keep displacements alone."""
-PARAMETERS: dict[str, dict[str, Range]] = {
+ONE_STEP_PARAMETERS: dict[str, dict[str, Range]] = {
     "newmark": {"beta": Range(0.0, 1.0), "gamma": Range(0.5, 1.0)},
     "hht": {"alpha": Range(-1.0 / 3.0, 0.0)},
     "generalized_alpha": {"spectral_radius": Range(0.0, 1.0)},
@@ -45,20 +47,34 @@ PARAMETERS: dict[str, dict[str, Range]] = {
     "moreau_jean": {"theta": Range(0.5, 1.0)},
 }
 """Classical schemes of one step, with the parameters of each."""
-ONE_STEP_METHODS = tuple(PARAMETERS)
+ONE_STEP_METHODS = tuple(ONE_STEP_PARAMETERS)
 FIXED_STEP_METHODS = (*EXPLICIT_METHODS, *ONE_STEP_METHODS)
-ADAPTIVE_METHODS = ("rk32", "rk54", "dop853")
+TOLERANCE_METHODS = ("rk32", "rk54", "dop853", "exprk43")
+"""Methods whose steps follow a tolerance."""
+ADAPTIVE_METHODS = (*TOLERANCE_METHODS, "adaptive_central_difference")
+"""Methods whose steps follow the motion, and that locate every switch."""
+PARAMETERS: dict[str, dict[str, Range]] = {
+    **ONE_STEP_PARAMETERS,
+    "adaptive_central_difference": {"points_per_period": Range(10.0, 1e7)},
+}
+"""Parameters of the methods that have any beside a step or a tolerance."""
 METHODS = ("auto", "exact", *FIXED_STEP_METHODS, *ADAPTIVE_METHODS)
 OPTIONS: dict[str, tuple[str, ...]] = {
     "auto": ("rtol", "atol"),
     "exact": (),
     **dict.fromkeys(FIXED_STEP_METHODS, ("dt", "beyond_stability_limit")),
-    **{name: ("dt", "beyond_stability_limit", *known) for name, known in PARAMETERS.items()},
-    **dict.fromkeys(ADAPTIVE_METHODS, ("rtol", "atol")),
+    **{
+        name: ("dt", "beyond_stability_limit", *known)
+        for name, known in ONE_STEP_PARAMETERS.items()
+    },
+    **dict.fromkeys(TOLERANCE_METHODS, ("rtol", "atol")),
+    "adaptive_central_difference": ("points_per_period",),
 }
 """What each method can be told; ``"auto"`` has no use for it where it takes the exact one."""
+POINTS_PER_PERIOD = 50.0
+"""Steps of the adaptive central difference in a period where none are given."""
 RTOL = 1e-8
-"""Relative tolerance of the adaptive methods where none is given."""
+"""Relative tolerance where none is given."""
 FULL_METHODS = ("newmark", "hht", "generalized_alpha", "central_difference")
 """Methods that take a full model, which is not reduced to modes."""
 RIGID_METHODS = ("exact", "moreau_jean")
@@ -72,6 +88,8 @@ def check_method(method: str, problem: Problem) -> None:
     _refuse_full_model(method, problem)
     _refuse_coupled_modes(method, problem)
     _refuse_rigid_stops(method, problem)
+    _refuse_rigid_friction(method, problem)
+    _refuse_stepped_laws(method, problem)
     _refuse_smooth_laws(method, problem)
 
 
@@ -149,6 +167,31 @@ def _refuse_rigid_stops(method: str, problem: Problem) -> None:
                     value=method,
                     hint=f"{' and '.join(RIGID_METHODS)} do",
                 )
+
+
+def _refuse_rigid_friction(method: str, problem: Problem) -> None:
+    """Raise for the exact method, whose impacts know the impulse along the normal alone."""
+    if method != "moreau_jean":
+        for law in problem.laws:
+            rubs = getattr(law, "friction", None) is not None
+            if hasattr(law, "restitution") and rubs:
+                raise InputError(
+                    f"does not take friction at rigid stops, as {law.name!r} has it",
+                    key="method",
+                    value=method,
+                    hint="moreau_jean with a step dt does, or give the stop a stiffness",
+                )
+
+
+def _refuse_stepped_laws(method: str, problem: Problem) -> None:
+    """Raise where a program outside is to be asked once a step, by a method that asks more."""
+    if method == "symplectic_euler":
+        return
+    for law in problem.laws:
+        if getattr(law, "stepped", False):
+            what = f"does not take {law.name!r}: {smoothness(law)}, once a step"
+            hint = "symplectic_euler with a step dt does"
+            raise InputError(what, key="method", value=method, hint=hint)
 
 
 def _refuse_smooth_laws(method: str, problem: Problem) -> None:

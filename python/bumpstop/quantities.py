@@ -13,6 +13,7 @@ __all__ = [
     "ENERGIES",
     "FREQUENCY",
     "IMPACTS",
+    "INTERNAL_VARIABLES",
     "MOST_BLOCKS",
     "MOST_CLASSES",
     "QUANTITIES",
@@ -63,6 +64,22 @@ QUANTITIES = {
 
 STATE = Quantity("1", "state of the law", ("stop",))
 """What a law does at an instant, in a word: a function of time, but no number."""
+
+INTERNAL_VARIABLES = {
+    "anchor": Quantity("m", "where the slider of the friction stands along its direction"),
+    "stretch_around": Quantity("m", "stretch of what rubs, around the obstacle or along its plane"),
+    "stretch_axial": Quantity("m", "stretch of what rubs, along the axis of the obstacle"),
+    "plastic_elongation": Quantity("m", "plastic elongation"),
+    "plastic_path": Quantity("m", "plastic elongation summed up, back and forth"),
+    "largest_crushing": Quantity("m", "largest crushing since the stop has buckled"),
+    "residual_crushing": Quantity("m", "crushing that is left without force"),
+    "dashpot_elongation": Quantity("m", "elongation of the dashpot"),
+    "memory": Quantity("1", "memory of the law"),
+}
+"""What laws remember, beside the state that they are in: functions of time.
+
+A law says which it has by its ``internal_variables``, at most two, in the order of the core's.
+"""
 
 FREQUENCY = Quantity("Hz", "natural frequency")
 """A property of each mode."""

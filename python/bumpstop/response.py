@@ -212,7 +212,8 @@ class Response:
             per s and s2); ``modal_displacement``, ``modal_velocity``, ``modal_acceleration``
             of a mode counted from 1, or of all, where a mode is a vector of the basis as its
             user gave it; ``stop_force``, ``friction_force`` (N) and ``gap`` (m) of a stop, and
-            its ``state`` in words; ``gauge`` (strain) of a gauge.
+            its ``state`` in words; ``internal_variable`` of a law that remembers something, by
+            the law and what it is called (`internal_variables`); ``gauge`` (strain) of a gauge.
         target
             What it is the quantity of: ``"B", "dy"``, or ``"guide"``.
         times
@@ -377,6 +378,25 @@ class Response:
             attrs={"long_name": STATE.long_name, "stop": name},
         )
 
+    def internal_variables(self, name: str) -> xr.Dataset:
+        """Return what a stop or another law remembers over time.
+
+        The ``anchor`` of friction in one direction, in m: where its slider stands; the stretches of
+        round and plane stops that rub, ``stretch_around`` and ``stretch_axial``; the
+        ``plastic_elongation`` of a hardening spring and the ``plastic_path``, the same summed up;
+        ``largest_crushing`` and ``residual_crushing`` of a stop that buckles; the
+        ``dashpot_elongation`` of a Zener damper; the ``memory`` of a law of one's own. NaN where
+        there is none, as the anchor of a stop that is open.
+
+        Raises
+        ------
+        InputError
+            If there is no such law, or it remembers nothing.
+        """
+        from bumpstop.labelled import internal_variables
+
+        return internal_variables(self, name)
+
     def gap(self, name: str) -> xr.DataArray:
         """Return the distance to a stop over time, in m; it is negative while pressed.
 
@@ -453,7 +473,8 @@ class Response:
         title, case, variant
             What to say in the file about where the problem comes from.
         results
-            Results of its case whose numbers are to be in the file; `read_results` reads them.
+            Results of its case whose numbers and curves are to be in the file; `read_results` and
+            `read_curves` read them.
 
         Raises
         ------

@@ -40,7 +40,7 @@ def sampled(
     InputError
         If quantity or target are unknown.
     """
-    one_of("quantity", quantity, (*QUANTITIES, "state"))
+    one_of("quantity", quantity, (*QUANTITIES, "state", "internal_variable"))
     _check_target(quantity, target)
     if quantity in MOTIONS:
         return _nodal(response, quantity, *map(str, target), times=times)
@@ -54,7 +54,21 @@ def sampled(
     name = str(target[0])
     if quantity == "gauge":
         return _gauge_strain(response, name, times)
+    if quantity == "internal_variable":
+        return _internal_variable(response, name, str(target[1]), times)
     return _of_law(response, quantity, response.law_index(name), times)
+
+
+def _internal_variable(
+    response: Response, name: str, variable: str, times: FloatArray
+) -> FloatArray:
+    law = response.law_index(name)
+    known: tuple[str, ...] = getattr(response.problem.laws[law], "internal_variables", ())
+    if not known:
+        hint = "friction, plasticity, buckling and dashpots with springs do"
+        raise InputError("remembers nothing", key="law", value=name, hint=hint)
+    column = known.index(one_of("variable", variable, known))
+    return response.history.internal_variables(law, times)[:, column].copy()
 
 
 def _nodal(
@@ -122,7 +136,8 @@ def _mode_index(response: Response, mode: str | SupportsIndex) -> int:
 
 
 def _check_target(quantity: str, target: tuple[str | SupportsIndex, ...]) -> None:
-    wanted = STATE.target if quantity == "state" else QUANTITIES[quantity].target
+    others = {"state": STATE.target, "internal_variable": ("law", "variable")}
+    wanted = others[quantity] if quantity in others else QUANTITIES[quantity].target
     if len(target) == len(wanted) or (wanted == ("mode",) and not target):
         return
     what = f"{quantity} is that of a {' and a '.join(wanted)}"

@@ -14,11 +14,11 @@ from bumpstop.arguments import boolean, finite, not_negative, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.methods import (
-    ADAPTIVE_METHODS,
     FIXED_STEP_METHODS,
     METHODS,
     ONE_STEP_METHODS,
     RTOL,
+    TOLERANCE_METHODS,
     check_method,
     check_options,
     checked_parameters,
@@ -66,6 +66,7 @@ def simulate(
     alpha: float | None = None,
     spectral_radius: float | None = None,
     theta: float | None = None,
+    points_per_period: float | None = None,
     rtol: float | None = None,
     atol: float | None = None,
     progress: Callable[[float], None] | None = None,
@@ -80,11 +81,13 @@ def simulate(
     method
         ``"exact"`` solves each phase between two contacts in closed form; ``"auto"`` takes it
         wherever it applies, and ``"dop853"`` where a law is smooth. ``"rk32"``, ``"rk54"`` and
-        ``"dop853"`` are Runge-Kutta pairs of order 3, 5 and 8 whose steps follow a tolerance;
-        they locate every switch of a law. The others march in equal steps: ``"symplectic_euler"``
-        (order 1), ``"central_difference"``, ``"newmark"``, ``"hht"``, ``"generalized_alpha"``,
-        ``"trbdf2"``, ``"exponential"`` (order 2) and ``"devogelaere"`` (order 4);
-        ``"moreau_jean"`` steps over the impacts of rigid stops (order 1).
+        ``"dop853"`` are Runge-Kutta pairs of order 3, 5 and 8 whose steps follow a tolerance,
+        ``"exprk43"`` is one of order 4 for stiff modes; the steps of
+        ``"adaptive_central_difference"`` (order 2) follow the frequency that the motion shows.
+        All of these locate every switch of a law. The others march in equal steps:
+        ``"symplectic_euler"`` (order 1), ``"central_difference"``, ``"newmark"``, ``"hht"``,
+        ``"generalized_alpha"``, ``"trbdf2"``, ``"exponential"`` (order 2) and ``"devogelaere"``
+        (order 4); ``"moreau_jean"`` steps over the impacts of rigid stops (order 1).
     dt
         Step in s of the fixed-step methods.
     beyond_stability_limit
@@ -100,11 +103,14 @@ def simulate(
     theta
         Weight of the end of a step in the method of Moreau and Jean, from 1/2 to 1, 1/2 where left
         out.
+    points_per_period
+        Steps of the adaptive central difference in a period of the fastest visible motion, from 10
+        to 1e7, 50 where left out.
     rtol
-        Relative tolerance of the adaptive methods, if one is taken, 1e-8 where left out: the error
+        Relative tolerance of the Runge-Kutta pairs, if one is taken, 1e-8 where left out: the error
         of a step in each modal displacement and velocity over the largest that it has been so far.
     atol
-        Absolute tolerance of the adaptive methods, in the units of the modal displacements and of
+        Absolute tolerance of the Runge-Kutta pairs, in the units of the modal displacements and of
         their rates; where left out, displacements, or velocities, below a tenth of the
         largest among them are measured by that.
     progress
@@ -161,6 +167,7 @@ def simulate(
         "alpha": alpha,
         "spectral_radius": spectral_radius,
         "theta": theta,
+        "points_per_period": points_per_period,
     }
     given = {"dt": dt, "beyond_stability_limit": beyond, "rtol": rtol, "atol": atol, **of_scheme}
     check_options(chosen, unknown, given)
@@ -197,6 +204,8 @@ def simulate(
         raise ComputationError(f"the {chosen} method could not finish: {error}") from error
     if chosen == "exact":
         _check_outcome(problem, history)
+    else:
+        _check_numbers(chosen, problem, history)
     relative, absolute = tolerances or (None, None)
     told = {"dt": step, "rtol": relative, "atol": absolute, **parameters}
     options = {name: value for name, value in told.items() if value is not None}
@@ -228,6 +237,19 @@ def _check_outcome(problem: Problem, history: _core.History) -> None:
         )
         _blame_scale("exact", problem, error)
         raise error
+
+
+def _check_numbers(method: str, problem: Problem, history: _core.History) -> None:
+    """Refuse a run that ends in what is no number: none may reach a file."""
+    end = np.array([problem.duration])
+    told = [history.motion(end, order) for order in (0, 1)]
+    for law in range(len(problem.laws)):
+        told.extend(history.law_motion(law, end))
+    if not all(np.isfinite(part).all() for part in told):
+        raise ComputationError(
+            f"the {method} method lost the motion by t = {problem.duration:g} s: its numbers are "
+            "not finite; take a smaller step or tolerance, and check the units"
+        )
 
 
 def _varies(problem: Problem) -> bool:
@@ -271,7 +293,7 @@ def _choose(method: str, problem: Problem) -> tuple[str, str]:
 def _checked_tolerances(
     method: str, rtol: float | None, atol: float | None
 ) -> tuple[float, float | None] | None:
-    if method not in ADAPTIVE_METHODS:
+    if method not in TOLERANCE_METHODS:
         return None
     relative = RTOL if rtol is None else finite("rtol", rtol)
     if not FINEST_RTOL <= relative < 1.0:
@@ -318,6 +340,7 @@ def _run_full(
         history = model.simulate(method, step, beyond, parameters, progress)
     except _core.CoreError as error:
         raise ComputationError(f"the {method} method could not finish: {error}") from error
+    _check_numbers(method, problem, history)
     whole = len(kept) == len(problem.basis.omega2)
     return Response(
         problem,

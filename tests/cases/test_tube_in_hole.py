@@ -42,7 +42,7 @@ def test_the_orbit_is_drawn_with_the_circle_that_is_reached(case: bs.Case) -> No
     law = problem.laws[0]
     assert isinstance(law, bs.CircleStop)
     figure = orbit(response, law)
-    path, border = figure["data"]
+    path, *_, border = figure["data"]
     np.testing.assert_allclose(np.hypot(path["x"], path["y"]), 800.0, rtol=1e-6)  # µm
     np.testing.assert_allclose(np.hypot(border["x"], border["y"]), 600.0, rtol=1e-12)
     assert figure["layout"]["xaxis"]["title"]["text"] == "Along y (µm)"

@@ -1,5 +1,7 @@
 """``bumpstop sweep``: what it prints, writes and returns, and that it survives being killed."""
 
+import errno
+import itertools
 import json
 import os
 import resource
@@ -44,7 +46,10 @@ def test_table_and_store(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     mean = 3.0 * np.sqrt(2.0 * np.geomspace(50.0, 800.0, 5)).mean()
     assert force[1:5] == ["N", "30", f"{mean:.6g}", "120"]
     assert force[5:8] == ["stops.spring.stiffness", "=", "800,"]
-    assert lines[-1] == f"written to {tmp_path / 'study.zarr'}"
+    assert lines[-2:] == [
+        f"written to {tmp_path / 'study.zarr'}",
+        f"report in {tmp_path / 'study.html'}",
+    ]
     assert bs.open_study(tmp_path / "study.zarr").sizes["stops.spring.gap"] == 2
 
 
@@ -133,11 +138,66 @@ def test_a_full_disk_loses_nothing(tmp_path: Path) -> None:
     assert failed.returncode == 2
     (line,) = failed.stderr.splitlines()
     assert "study.zarr: store: cannot be written: File too large" in line
-    assert "go on with --resume" in line
+    assert "make room, or name another folder" in line  # not even the study itself had room
+    assert not store.exists()
     assert subprocess.run([*words, "--resume"], capture_output=True, check=False).returncode == 0
     whole = tmp_path / "whole.zarr"
     assert main(["sweep", str(study), "--workers", "1", "--store", str(whole)]) == 0
     assert content(store) == content(whole)
+
+
+@pytest.mark.parametrize("reason", [errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO])
+@pytest.mark.parametrize("write", [0, 3, 17])
+def test_a_write_that_fails_loses_nothing(
+    reason: int,
+    write: int,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    words = ["sweep", str(written(tmp_path)), "--workers", "1", "--no-report"]
+    assert main([*words, "--store", str(tmp_path / "whole.zarr")]) == 0
+    capsys.readouterr()
+    writes = itertools.count()
+    replace = Path.replace
+
+    def fail(path: Path, target: Path) -> Path:
+        # Counted when the store has been made: its files are then those of chunks.
+        made = path.suffix == ".partial" and (tmp_path / "study.zarr").exists()
+        if made and next(writes) >= write:
+            raise OSError(reason, os.strerror(reason))
+        return replace(path, target)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "replace", fail)
+        line = refused(capsys, *words[1:])
+    assert f"study.zarr: store: cannot be written: {os.strerror(reason)}" in line
+    assert "go on with --resume" in line
+    assert main([*words, "--resume"]) == 0
+    assert content(tmp_path / "study.zarr") == content(tmp_path / "whole.zarr")
+
+
+def test_a_store_that_is_read_only(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = str(written(tmp_path))
+    assert main(["sweep", study, "--workers", "1"]) == 0
+    capsys.readouterr()
+    before = content(tmp_path / "study.zarr")
+    # Permissions hold nobody off who runs as root.
+    monkeypatch.setattr(os, "access", lambda path, _: "study.zarr" not in str(path))
+    line = refused(capsys, study, "--resume")
+    assert line == f"error: {tmp_path / 'study.zarr'}: store: is read-only"
+    assert content(tmp_path / "study.zarr") == before
+
+
+def test_runs_that_cannot_be_opened(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study = str(written(tmp_path))
+    assert "--open: the study has runs 0 to 9 (got 10)" in refused(capsys, study, "--open", "10")
+    assert "--open: must be 0 or more" in refused(capsys, study, "--open=-1")
+    assert not (tmp_path / "study-run-10").exists()
+    (tmp_path / "study-run-3").touch()
+    assert "--open: cannot be written to" in refused(capsys, study, "--open", "3")
 
 
 def test_killed_at_any_instant_and_resumed(tmp_path: Path) -> None:
@@ -165,8 +225,8 @@ def test_killed_at_any_instant_and_resumed(tmp_path: Path) -> None:
 
 
 def test_interrupted(tmp_path: Path) -> None:
-    slow = CASE.replace("duration = 2.0", "duration = 2.0\nsample = 1e-6")
-    study = written(tmp_path, STUDY.replace("count = 5", "count = 5000"), slow)
+    slow = CASE.replace("duration = 2.0", "duration = 200.0\nsample = 1e-4")
+    study = written(tmp_path, STUDY.replace("count = 5", "count = 50000"), slow)
     words = [sys.executable, "-m", "bumpstop", "sweep", str(study), "--workers", "2"]
     with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
         first = tmp_path / "study.zarr" / "status" / "c" / "0"
@@ -178,5 +238,5 @@ def test_interrupted(tmp_path: Path) -> None:
         lines = process.stderr.read().splitlines()
         assert process.wait() == 130
     assert lines[-1] == "interrupted"
-    assert "of 10000 runs are kept; go on by --resume" in lines[0]
+    assert "of 100000 runs are kept; go on by --resume" in lines[0]
     assert len(lines) == 2

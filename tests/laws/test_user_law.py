@@ -1,7 +1,8 @@
-"""Laws by Python functions: against laws of the house, and their errors."""
+"""Laws by Python functions, and programs outside: against laws of the house, and their errors."""
 
 # ruff: noqa: ARG001, ARG005 (laws are called with all that there is, whatever they need of it)
 
+from collections.abc import Generator
 from typing import Any
 
 import numpy as np
@@ -115,3 +116,59 @@ def test_bad_input_is_refused(wrong: dict[str, Any], key: str) -> None:
     with pytest.raises(bs.InputError) as caught:
         bs.UserLaw("mine", **HERE | {"force": lambda q, v, t: 0.0} | wrong)
     assert caught.value.key == key
+
+
+def program(asked: list[int]) -> Generator[float, tuple[int, float, float], None]:
+    """Answer as a spring and a damper, with a state of its own: the number of the step."""
+    step, q, v = yield 0.0
+    while True:
+        asked.append(step)
+        step, q, v = yield -40.0 * q - 2.0 * v
+
+
+def test_a_program_outside_is_asked_once_a_step_and_never_again() -> None:
+    asked: list[int] = []
+    running = program(asked)
+    next(running)
+    outside = bs.OutsideProgram("out", exchange=lambda *told: running.send(told), **HERE)
+    inside = bs.SpringLaw("in", stiffness=[40.0], damping=2.0, **HERE)
+    problems = [one_mass(law, speed=1.0, duration=0.5) for law in (outside, inside)]
+    runs = [bs.simulate(problem, "symplectic_euler", dt=1e-3) for problem in problems]
+    told = len(asked)
+    times = np.linspace(0.0, 0.5, 26)
+    one, other = (run.sample("displacement", "P", "dx", times=times) for run in runs)
+    assert one == pytest.approx(other, rel=1e-12, abs=1e-15)
+    forces = [
+        run.sample("stop_force", law, times=times)
+        for run, law in zip(runs, ("out", "in"), strict=True)
+    ]
+    assert forces[0] == pytest.approx(forces[1], rel=1e-9)
+    assert runs[0].energy_residual < 0.1
+    assert len(asked) == told
+    assert asked == list(range(len(asked)))
+    assert 500 <= len(asked) <= 500 + 64
+
+
+def test_the_force_of_a_program_outside_is_read_as_it_was_told() -> None:
+    outside = bs.OutsideProgram(
+        "out", exchange=lambda step, q, v: -2.0 if step >= 300 else 0.0, **HERE
+    )
+    run = bs.simulate(one_mass(outside, speed=1.0, duration=0.5), "symplectic_euler", dt=1e-3)
+    force = run.sample("stop_force", "out", times=[0.0, 0.1, 0.2985, 0.3015, 0.5])
+    assert force.tolist() == [0.0, 0.0, 0.0, -2.0, -2.0]
+    way = np.ptp(run.sample("displacement", "P", "dx", times=[0.3, 0.5]))
+    lost = run.energy_terms([0.5])["dissipated_stops"][0]
+    assert lost == pytest.approx(2.0 * way, rel=0.01)
+
+
+def test_other_methods_refuse_a_program_outside() -> None:
+    problem = one_mass(bs.OutsideProgram("out", exchange=lambda n, q, v: 0.0, **HERE))
+    for method, options in (("auto", {}), ("newmark", {"dt": 1e-3}), ("rk54", {})):
+        with pytest.raises(bs.InputError, match=r"'out'.*once a step.*symplectic_euler"):
+            bs.simulate(problem, method, **options)  # type: ignore[arg-type]
+
+
+def test_what_goes_wrong_outside_is_told_with_its_step() -> None:
+    outside = bs.OutsideProgram("out", exchange=lambda n, q, v: 1 / (n - 20), **HERE)
+    with pytest.raises(bs.ComputationError, match=r"program of law 'out' raised Zero.* at step 20"):
+        bs.simulate(one_mass(outside), "symplectic_euler", dt=1e-3)

@@ -17,7 +17,7 @@ from .several.rubbing import random_rubbing
 from .several.scan import ScanSolution
 
 CASES = Path(__file__).parents[2] / "cases"
-ADAPTIVE = ("rk32", "rk54", "dop853")
+ADAPTIVE = ("rk32", "rk54", "dop853", "exprk43")
 
 
 def case_problem(name: str, variant: str) -> bs.Problem:
@@ -88,7 +88,9 @@ def test_the_error_follows_the_tolerance(method: str) -> None:
     assert all(errors < tolerances)
 
 
-@pytest.mark.parametrize(("method", "order"), [("rk32", 3), ("rk54", 5), ("dop853", 8)])
+@pytest.mark.parametrize(
+    ("method", "order"), [("rk32", 3), ("rk54", 5), ("dop853", 8), ("exprk43", 4)]
+)
 @pytest.mark.parametrize(("name", "variant"), [("sdnl32", "soft"), ("sdnd102a", "exact")])
 def test_the_order_is_that_of_the_pair(method: str, order: int, name: str, variant: str) -> None:
     """Through contacts: the steps go with the tolerance to the power -1/order."""
@@ -235,6 +237,71 @@ def test_options_out_of_place_are_refused(method: str, options: dict[str, Any], 
     assert caught.value.key == key
 
 
+@pytest.mark.parametrize(("name", "variant"), [("sdnl32", "stiff"), ("sdnd100a", "published")])
+def test_the_adaptive_central_difference_is_of_second_order(name: str, variant: str) -> None:
+    """Through contacts and friction, whose switches it locates."""
+    problem = case_problem(name, variant)
+    exact = bs.simulate(problem, "exact")
+    runs = [
+        bs.simulate(problem, "adaptive_central_difference", points_per_period=points)
+        for points in (200.0, 800.0)
+    ]
+    coarse, fine = (error(run, exact) for run in runs)
+    assert coarse / fine == pytest.approx(16.0, rel=0.3)
+    assert fine < 1e-5
+    assert len(runs[1].event_table()["time"]) == len(exact.event_table()["time"])
+
+
+def test_its_steps_follow_the_contact_and_not_the_flight() -> None:
+    """A stop of 100 times the frequency of the structure makes steps short while it is closed."""
+    basis = bs.ModalBasis.from_modes(frequency=[5.0], damping=0.0, shapes={("P", "dx"): [1.0]})
+    wall = bs.Stop("wall", node="P", normal=(1, 0, 0), gap=0.01, stiffness=1e4 * (10 * np.pi) ** 2)
+    state = bs.ModalState(velocity=[-1.0])
+    problem = bs.Problem(basis, laws=[wall], initial=state, duration=1.0)
+    run = bs.simulate(problem, "adaptive_central_difference", points_per_period=200.0)
+    assert error(run, bs.simulate(problem, "exact")) < 0.02
+    # Equal steps as fine as the contact asks for would be 100,000.
+    assert run.steps < 5000
+
+
+def test_stiff_modes_at_rest_cost_the_exponential_pair_nothing() -> None:
+    """Beside a mode of 5 Hz one of 50 kHz, whose period no explicit pair can step over."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[5.0, 5e4], damping=[0.01, 0.01], shapes={("P", "dx"): [1.0, 0.5]}
+    )
+    wall = bs.HertzStop("wall", node="P", normal=(1, 0, 0), gap=0.005, stiffness=1e6, exponent=2.0)
+    state = bs.ModalState(velocity=[-1.0, 0.0])
+    problem = bs.Problem(basis, laws=[wall], initial=state, duration=0.5)
+    exponential, explicit = (
+        bs.simulate(problem, method, rtol=1e-6) for method in ("exprk43", "rk54")
+    )
+    assert exponential.steps < explicit.steps / 50
+    assert error(exponential, explicit) < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"points_per_period": 5.0}, r"points_per_period.*10 to 1e\+07"),
+        ({"points_per_period": float("nan")}, "points_per_period"),
+        ({"rtol": 1e-6}, "no option of the adaptive_central_difference method"),
+    ],
+)
+def test_wrong_resolutions_are_refused(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(bs.InputError, match=message):
+        bs.simulate(case_problem("sdnl32", "soft"), "adaptive_central_difference", **given)
+
+
+def test_energy_from_nowhere_is_told_with_its_time_and_mode() -> None:
+    """A tolerance that lets anything pass."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[1.0, 40.0], damping=0.0, shapes={("P", "dx"): [1.0, 1.0]}
+    )
+    problem = bs.Problem(basis, initial=bs.ModalState(velocity=[1.0, 1.0]), duration=500.0)
+    with pytest.raises(bs.ComputationError, match=r"blows up: at t = .*mode 2.*tolerance"):
+        bs.simulate(problem, "rk32", rtol=0.5, atol=1e9)
+
+
 def test_rigid_stops_are_refused() -> None:
     problem = case_problem("ball-on-floor", "base")
     with pytest.raises(bs.InputError, match=r"does not take rigid stops.*exact and moreau_jean do"):
@@ -251,7 +318,7 @@ def test_a_motion_without_bounds_is_told_with_its_time() -> None:
         bs.simulate(problem, "rk54", rtol=1e-4)
 
 
-@pytest.mark.parametrize("method", ["rk32", "rk54", "dop853"])
+@pytest.mark.parametrize("method", ADAPTIVE)
 def test_a_structure_leaves_rest_under_a_force_that_begins_at_zero(method: str) -> None:
     basis = bs.ModalBasis.from_modes(
         frequency=[3.0, 7.5], damping=0.01, shapes={("P", "dx"): [1.0, 0.4]}

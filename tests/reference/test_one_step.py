@@ -179,10 +179,6 @@ def test_cases_converge(method: str, name: str, variant: str) -> None:
 def test_a_damper_that_throws_off_within_a_step_is_no_obstacle(method: str, damping: float) -> None:
     """The force that jumps at closing has no equilibrium at the end of some steps."""
     problem = bouncing(damping=damping)
-    if method == "devogelaere" and damping == 1e5:  # far beyond its limit the energy grows
-        with pytest.raises(bs.ComputationError, match="blows up"):
-            bs.simulate(problem, method, dt=2e-3, beyond_stability_limit=True)
-        return
     response = bs.simulate(problem, method, dt=2e-3, beyond_stability_limit=True)
     assert np.abs(response.sample("displacement", "P", "dx")).max() < 0.1
     force = response.sample("stop_force", "guide")

@@ -27,9 +27,9 @@ class Run:
         return path
 
 
-def run(case: bs.Case) -> Run:
+def run(case: bs.Case, variants: list[str] | None = None, method: str = "exact") -> Run:
     responses = {
-        name: bs.simulate(problem, method="exact") for name, problem in case.problems.items()
+        name: bs.simulate(case.problems[name], method=method) for name in variants or case.problems
     }
     checks = {
         name: check_references(response, case.references.get(name, []))
@@ -138,3 +138,15 @@ def bouncing() -> bs.Response:
     weight = bs.NodalForce("weight", node="P", force=(0, -9.81, 0))
     problem = bs.Problem(basis, laws=[floor], loads=[weight], duration=3.0, sample=1e-4)
     return bs.simulate(problem, method="exact")
+
+
+@pytest.fixture(scope="session")
+def tube() -> Run:
+    """A tube that whirls in its hole."""
+    case = bs.load_case(CASES / "tube-in-hole" / "case.toml")
+    return run(case, ["whirling"], method="dop853")
+
+
+@pytest.fixture(scope="session")
+def tube_page(tube: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tube.write(tmp_path_factory.mktemp("tube") / "report.html")

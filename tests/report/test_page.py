@@ -155,7 +155,7 @@ def test_names_are_only_text(nasty: Path, ball_page: Path) -> None:
     page, plain = Page(nasty), Page(ball_page)
     assert len(page.all("script")) == len(plain.all("script")) == 3
     assert NASTY in page.text
-    assert page.data()["motions"]["variant-1-motion"]["stops"][0]["name"] == NASTY
+    assert page.data()["motions"]["variant-1-motion"]["laws"][0]["name"] == NASTY
 
 
 def test_json_for_scripts_reads_back() -> None:

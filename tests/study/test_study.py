@@ -33,6 +33,8 @@ def files(store: Path) -> dict[str, bytes]:
 
 def test_a_grid_against_closed_forms(bouncing: bs.Study) -> None:
     found = bouncing.run(workers=1)
+    assert found.run.values.tolist() == np.arange(10).reshape(5, 2).tolist()
+    found = found.drop_vars("run")
     assert dict(found.sizes) == {STIFFNESS: 5, GAP: 2, "place_time": 2}
     assert found[STIFFNESS].values == pytest.approx([50.0, 100.0, 200.0, 400.0, 800.0])
     assert found[GAP].values.tolist() == [0.25, 0.5]

@@ -61,10 +61,12 @@ impl Ledger {
 /// passes it soon.
 pub(crate) const BLOWN_UP: f64 = 100.0;
 
-/// Tells from the ledger when a run blows up.
+/// Tells from the ledger when a run blows up. What dampers and laws take has no say in it: it is
+/// integrated along steps that may be far too long for a stiff damper, which then seems to take too
+/// much, and gives nothing. What they give, as a law that drives the structure does, counts as given.
 #[derive(Debug)]
 pub(crate) struct Growth {
-    balance: f64,
+    held: f64,
     start: f64,
     given: f64,
 }
@@ -73,25 +75,31 @@ impl Growth {
     /// From the ledger at t = 0.
     pub(crate) fn new(ledger: &Ledger) -> Self {
         Self {
-            balance: ledger.balance(),
+            held: ledger.held(),
             start: ledger.scale(),
             given: 0.0,
         }
     }
 
     /// Looks at a later ledger; gives the energy that came from nowhere, over what was there and
-    /// was given, where that is too much.
+    /// was given, where that is too much or no number.
     pub(crate) fn sees(&mut self, ledger: &Ledger) -> Option<f64> {
         let given = [
             ledger.load_work,
             ledger.circulatory_work,
             ledger.obstacle_work,
         ];
+        let lost = ledger
+            .law_dissipated
+            .iter()
+            .chain([&ledger.modal_dissipation]);
         let given: f64 = given.iter().map(|work| work.abs()).sum();
+        let given = given + lost.map(|lost| (-lost).max(0.0)).sum::<f64>();
         self.given = self.given.max(given);
-        let excess = ledger.balance() - self.balance;
-        let ratio = excess / (self.start + self.given);
-        (ratio > BLOWN_UP).then_some(ratio)
+        let excess = ledger.held() - self.held;
+        let known = self.start + self.given;
+        let is_calm = excess <= BLOWN_UP * known && ledger.balance().is_finite();
+        (!is_calm).then_some(excess / known)
     }
 }
 

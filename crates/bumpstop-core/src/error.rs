@@ -158,6 +158,16 @@ pub enum Error {
         /// The method.
         method: &'static str,
     },
+    /// A method that takes rigid stops was given one that rubs.
+    #[error(
+        "the {method} method does not take friction at rigid stops, as law {law} (counted from 0) has it; moreau_jean does, or give the stop a stiffness"
+    )]
+    RigidFriction {
+        /// The method.
+        method: &'static str,
+        /// The law.
+        law: usize,
+    },
     /// An obstacle's motion jumps.
     #[error("an obstacle cannot jump: its motion has two values at t = {time:e} s")]
     Jump {
@@ -307,6 +317,19 @@ pub enum Error {
         ratio: f64,
         /// The mode that has most of it, counted from 0; a full model has none.
         mode: Option<usize>,
+    },
+    /// A run whose steps follow the motion gained energy from nowhere.
+    #[error(
+        "the motion blows up: at t = {time:e} s there is {ratio:.0e} times the energy that was there and was given{}; take a finer tolerance or more points per period, and look whether a law gives energy that it does not tell",
+        most_of_it(Some(*mode))
+    )]
+    RanAway {
+        /// Instant, in s.
+        time: f64,
+        /// Energy from nowhere, over what was there and was given.
+        ratio: f64,
+        /// The mode that has most of it, counted from 0.
+        mode: usize,
     },
     /// A law is so stiff that the instants of a run lie too far apart for it.
     #[error(

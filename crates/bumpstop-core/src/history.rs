@@ -167,8 +167,10 @@ impl<L: Law> History<L> {
     pub fn motion(&self, times: &[f64], derivative: Derivative) -> Result<Vec<f64>> {
         self.check_times(times)?;
         let modes = self.problem.system.modes();
-        if let (Record::Phases(record), Derivative::Displacement) = (&self.record, derivative) {
-            return Ok(record.displacements(times, modes));
+        if let (Record::Phases(record), Derivative::Displacement | Derivative::Velocity) =
+            (&self.record, derivative)
+        {
+            return Ok(record.motion(derivative as usize, times, modes));
         }
         let mut rows = Vec::with_capacity(times.len() * modes);
         if let (Record::Polynomials(record), Derivative::Acceleration) = (&self.record, derivative)
@@ -217,13 +219,11 @@ impl<L: Law> History<L> {
         self.check_times(times)?;
         let which = &self.problem.laws[law];
         let mut columns = [const { Vec::new() }; 3];
-        self.visit(times, |time, q, v, states| {
-            let [position, rate] = self.problem.local(law, time, q, v);
+        self.visit_law(law, times, |[position, rate], state, force| {
             let (distance, speed) = which.distance(&position, &rate);
             columns[0].push(distance);
             columns[1].push(speed);
-            let force = self.force_at(law, time, q, v, states);
-            columns[2].push(which.on_contact(states[law], &position, &force)[0]);
+            columns[2].push(which.on_contact(state, &position, &force)[0]);
         });
         Ok(columns)
     }
@@ -236,9 +236,7 @@ impl<L: Law> History<L> {
     pub fn law_forces(&self, law: usize, times: &[f64]) -> Result<Vec<Local<f64>>> {
         self.check_times(times)?;
         let mut forces = Vec::with_capacity(times.len());
-        self.visit(times, |time, q, v, states| {
-            forces.push(self.force_at(law, time, q, v, states));
-        });
+        self.visit_law(law, times, |_, _, force| forces.push(force));
         Ok(forces)
     }
 
@@ -249,10 +247,9 @@ impl<L: Law> History<L> {
     pub fn contact_forces(&self, law: usize, times: &[f64]) -> Result<Vec<Local<f64>>> {
         self.check_times(times)?;
         let mut forces = Vec::with_capacity(times.len());
-        self.visit(times, |time, q, v, states| {
-            let [position, _] = self.problem.local(law, time, q, v);
-            let force = self.force_at(law, time, q, v, states);
-            forces.push(self.problem.laws[law].on_contact(states[law], &position, &force));
+        let which = &self.problem.laws[law];
+        self.visit_law(law, times, |[position, _], state, force| {
+            forces.push(which.on_contact(state, &position, &force));
         });
         Ok(forces)
     }
@@ -266,6 +263,43 @@ impl<L: Law> History<L> {
         let mut found = Vec::with_capacity(times.len());
         self.visit(times, |_, _, _, states| found.push(states[law]));
         Ok(found)
+    }
+
+    /// Internal variables of a law at each time; see [`Law::internal_variables`].
+    ///
+    /// # Errors
+    /// When a time lies outside `[0, duration]`.
+    pub fn internal_variables(&self, law: usize, times: &[f64]) -> Result<Vec<[f64; 2]>> {
+        self.check_times(times)?;
+        let which = &self.problem.laws[law];
+        let mut found = Vec::with_capacity(times.len());
+        self.visit_law(law, times, |[position, rate], state, _| {
+            found.push(which.internal_variables(state, &position, &rate));
+        });
+        Ok(found)
+    }
+
+    /// Shows local position and velocity of a law, its state and its force at each time.
+    fn visit_law(
+        &self,
+        law: usize,
+        times: &[f64],
+        mut see: impl FnMut([Local<f64>; 2], State, Local<f64>),
+    ) {
+        let which = &self.problem.laws[law];
+        match &self.record {
+            // A reaction follows from the motion of all modes, a force from what the law sees.
+            Record::Phases(record) if which.restitution().is_none() => {
+                record.visit_law(law, which.rows(), times, |time, local, state| {
+                    let local = self.problem.seen_from_obstacle(law, time, local);
+                    see(local, state, which.force(state, &local[0], &local[1]));
+                });
+            }
+            _ => self.visit(times, |time, q, v, states| {
+                let local = self.problem.local(law, time, q, v);
+                see(local, states[law], self.force_at(law, time, q, v, states));
+            }),
+        }
     }
 
     fn force_at(
@@ -326,6 +360,15 @@ impl<L: Law> History<L> {
             }
             Record::Phases(record) => record.impacts(&self.problem, law),
             Record::Polynomials(record) => record.impacts(&self.problem, law),
+        }
+    }
+
+    /// The same with instants and speeds alone: peaks, impulses and energies may be left out, which
+    /// takes a fraction of the time.
+    pub fn contacts(&self, law: usize) -> Vec<Impact> {
+        match &self.record {
+            Record::Phases(record) => record.contacts(&self.problem, law),
+            _ => self.impacts(law),
         }
     }
 

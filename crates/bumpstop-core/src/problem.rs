@@ -74,7 +74,17 @@ impl<L: Law> Problem<L> {
         velocity: &[f64],
     ) -> [Local<f64>; 2] {
         let which = &self.laws[law];
-        let mut local = [project(which, displacement), project(which, velocity)];
+        let local = [project(which, displacement), project(which, velocity)];
+        self.seen_from_obstacle(law, time, local)
+    }
+
+    /// Local position and velocity of a law at a time less those of its obstacle.
+    pub(crate) fn seen_from_obstacle(
+        &self,
+        law: usize,
+        time: f64,
+        mut local: [Local<f64>; 2],
+    ) -> [Local<f64>; 2] {
         if self.forcing.varies() {
             let [moved, rate, ..] = self.forcing.motion(law, time);
             local[0][0] -= moved;

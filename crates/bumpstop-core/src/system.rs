@@ -55,6 +55,12 @@ impl Coupling {
         self.rows.len()
     }
 
+    /// A bound of what it makes of any vector, over the length of that: Frobenius' norm.
+    pub(crate) fn size(&self) -> f64 {
+        let squares = self.rows.iter().flatten().map(|factor| factor * factor);
+        squares.sum::<f64>().sqrt()
+    }
+
     /// Whether a mode has a part in it.
     pub fn involves(&self, mode: usize) -> bool {
         (self.rows.iter()).any(|row| row[mode] != 0.0) || self.rows[mode].iter().any(|x| *x != 0.0)

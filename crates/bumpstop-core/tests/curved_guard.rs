@@ -5,7 +5,7 @@
 
 use bumpstop_core::forcing::Forcing;
 use bumpstop_core::law::{Affine, Guard, Law, Local, LocalMotion, Piece, Power, State};
-use bumpstop_core::method::adaptive::{PairName, Tolerances};
+use bumpstop_core::method::adaptive::{Adaptive, PairName, Tolerances};
 use bumpstop_core::method::{Method, simulate};
 use bumpstop_core::number::Number;
 use bumpstop_core::problem::Problem;
@@ -186,7 +186,7 @@ fn adaptive(pair: PairName) -> Method {
         relative: 1e-12,
         absolute: None,
     };
-    Method::Adaptive(pair, tolerances)
+    Method::Adaptive(Adaptive::RungeKutta(pair, tolerances))
 }
 
 /// Steps of the scan, in s; the fastest guard has a period of about one.

@@ -81,19 +81,15 @@ impl Quantity {
             Some("last") => Pick::Last,
             Some(other) => return Err(unknown("statistic", other)),
         };
-        let column = match column {
-            "start" => ImpactColumn::Start,
-            "end" => ImpactColumn::End,
-            "duration" => ImpactColumn::Duration,
-            "closing_speed" => ImpactColumn::ClosingSpeed,
-            "opening_speed" => ImpactColumn::OpeningSpeed,
-            "peak_force" => ImpactColumn::PeakForce,
-            "peak_time" => ImpactColumn::PeakTime,
-            "impulse" => ImpactColumn::Impulse,
-            "energy_returned" => ImpactColumn::EnergyReturned,
-            _ => return Err(unknown("number of an impact", column)),
-        };
+        let column = impact_column(column)?;
         Ok(Self(core::Quantity::Impacts { law, column, pick }))
+    }
+
+    /// A number of each of the last impacts; NaN in front where there are fewer.
+    #[staticmethod]
+    fn last_impacts(law: usize, column: &str, count: usize) -> PyResult<Self> {
+        let column = impact_column(column)?;
+        Ok(Self(core::Quantity::LastImpacts { law, column, count }))
     }
 
     /// How many impacts there are on a law, or on all.
@@ -118,16 +114,31 @@ impl Quantity {
     }
 }
 
+fn impact_column(name: &str) -> PyResult<ImpactColumn> {
+    Ok(match name {
+        "start" => ImpactColumn::Start,
+        "end" => ImpactColumn::End,
+        "duration" => ImpactColumn::Duration,
+        "closing_speed" => ImpactColumn::ClosingSpeed,
+        "opening_speed" => ImpactColumn::OpeningSpeed,
+        "peak_force" => ImpactColumn::PeakForce,
+        "peak_time" => ImpactColumn::PeakTime,
+        "impulse" => ImpactColumn::Impulse,
+        "energy_returned" => ImpactColumn::EnergyReturned,
+        _ => return Err(unknown("number of an impact", name)),
+    })
+}
+
 fn unknown(what: &str, name: &str) -> PyErr {
     PyValueError::new_err(format!("no {what} '{name}'"))
 }
 
-/// Makes many runs by the exact method; releases the GIL. Returns the numbers of each run, (run,
+/// Makes many runs by the exact method, in chains perhaps; releases the GIL. Returns the numbers of each run, (run,
 /// number), and those runs that failed with their messages.
 #[pyfunction]
 #[pyo3(signature = (system, laws, forcing, displacement, velocity, duration, quantities, runs,
-                    stops, displacements=None, velocities=None, loads=None, threads=1,
-                    progress=None))]
+                    stops, displacements=None, velocities=None, loads=None, pace=None, chain=1,
+                    lanes=false, threads=1, progress=None))]
 #[allow(clippy::too_many_arguments)] // mirrors the Python signature
 #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
 pub fn batch<'py>(
@@ -144,6 +155,9 @@ pub fn batch<'py>(
     displacements: Option<(bool, Column<'_>)>,
     velocities: Option<(bool, Column<'_>)>,
     loads: Option<Column<'_>>,
+    pace: Option<Column<'_>>,
+    chain: usize,
+    lanes: bool,
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Found<'py>> {
@@ -158,15 +172,15 @@ pub fn batch<'py>(
     let kept = quantities.iter().map(|quantity| quantity.0.clone());
     let batch = problem.and_then(|problem| core::Batch::new(problem, kept.collect()));
     let batch = batch.map_err(core_error)?;
+    let batch = if lanes { batch.in_lanes() } else { batch };
     let parameters = Parameters {
         runs,
         stops: stop_values(&stops)?,
         displacement: start(displacements.as_ref())?,
         velocity: start(velocities.as_ref())?,
-        loads: loads
-            .as_ref()
-            .map(|factors| factors.as_slice())
-            .transpose()?,
+        loads: factors(loads.as_ref())?,
+        pace: factors(pace.as_ref())?,
+        chain,
     };
     let mut found = Array2::zeros((runs, batch.width()));
     let mut reporter = Reporter::new(progress, runs as f64);
@@ -197,6 +211,10 @@ fn stop_values<'a>(stops: &'a [(usize, String, Column<'_>)]) -> PyResult<Vec<Sto
         })
     };
     stops.iter().map(each).collect()
+}
+
+fn factors<'a>(given: Option<&'a Column<'_>>) -> PyResult<Option<&'a [f64]>> {
+    Ok(given.map(|factors| factors.as_slice()).transpose()?)
 }
 
 /// Factors of the problem's own state where the flag is set, else a row of modes for each run.

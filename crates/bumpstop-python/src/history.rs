@@ -186,6 +186,22 @@ impl History {
         Ok(Array2::from_shape_fn((times.len(), 3), of).into_pyarray(py))
     }
 
+    /// What a law remembers, brought up to the motion at each time; NaN where there is nothing.
+    fn internal_variables<'py>(
+        &self,
+        py: Python<'py>,
+        law: usize,
+        times: PyReadonlyArray1<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.check_law(law)?;
+        let times = values(&times);
+        let found = self
+            .read(py, |h| h.internal_variables(law, &times))
+            .map_err(core_error)?;
+        let of = |(time, variable): (usize, usize)| found[time][variable];
+        Ok(Array2::from_shape_fn((times.len(), 2), of).into_pyarray(py))
+    }
+
     fn law_states(
         &self,
         py: Python<'_>,

@@ -231,16 +231,22 @@ pub struct RigidStop(pub law::RigidStop);
 #[pymethods]
 impl RigidStop {
     #[new]
-    #[pyo3(signature = (row, gap, restitution, resolution=None))]
+    #[pyo3(signature = (row, gap, restitution, resolution=None, tangent=None, friction=0.0))]
     fn new(
         row: PyReadonlyArray1<f64>,
         gap: f64,
         restitution: f64,
         resolution: Option<f64>,
+        tangent: Option<PyReadonlyArray1<f64>>,
+        friction: f64,
     ) -> PyResult<Self> {
         law::RigidStop::new(values(&row), gap, restitution)
             .and_then(|stop| match resolution {
                 Some(resolution) => stop.with_resolution(resolution),
+                None => Ok(stop),
+            })
+            .and_then(|stop| match tangent {
+                Some(tangent) => stop.with_friction(values(&tangent), friction),
                 None => Ok(stop),
             })
             .map(Self)

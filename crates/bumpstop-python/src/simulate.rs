@@ -6,7 +6,7 @@ use crate::parts::{Forcing, LawPart, System, values};
 use bumpstop_core::error::{Error, Result};
 use bumpstop_core::history;
 use bumpstop_core::law::AnyLaw;
-use bumpstop_core::method::adaptive::{PairName, Tolerances};
+use bumpstop_core::method::adaptive::{self, Adaptive, PairName, Resolution, Tolerances};
 use bumpstop_core::method::fixed_step::Step;
 use bumpstop_core::method::one_step::{
     GeneralizedAlpha, Hht, MoreauJean, Newmark, SchemeName, devogelaere, exponential,
@@ -156,11 +156,22 @@ fn method_named(
         })
         .ok_or_else(|| PyValueError::new_err(format!("method '{name}' needs dt")))
     };
-    let adaptive = PairName::ALL.into_iter().find(|pair| pair.name() == name);
-    if let Some(pair) = adaptive {
+    let pair = PairName::ALL.into_iter().find(|pair| pair.name() == name);
+    if pair.is_some() || name == adaptive::exponential::NAME {
         let (relative, absolute) = tolerances
             .ok_or_else(|| PyValueError::new_err(format!("method '{name}' needs tolerances")))?;
-        return Ok(Method::Adaptive(pair, Tolerances { relative, absolute }));
+        let tolerances = Tolerances { relative, absolute };
+        return Ok(Method::Adaptive(match pair {
+            Some(pair) => Adaptive::RungeKutta(pair, tolerances),
+            None => Adaptive::Exponential(tolerances),
+        }));
+    }
+    if name == adaptive::central_difference::NAME {
+        let mut resolution = Resolution::default();
+        if let Some(points) = parameters.get("points_per_period") {
+            resolution.points_per_period = *points;
+        }
+        return Ok(Method::Adaptive(Adaptive::CentralDifference(resolution)));
     }
     if let Some(scheme) = scheme_named(name, parameters) {
         return Ok(Method::OneStep(scheme, step()?));

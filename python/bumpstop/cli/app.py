@@ -220,19 +220,31 @@ def _sweep(parser: ArgumentParser) -> Callable[[Namespace], int]:
     parser.add_argument("--store", type=_path, metavar="DIR", default=None, help=told)
     told = "How many processes; as many as there are cores if left out."
     parser.add_argument("--workers", type=int, metavar="N", default=None, help=told)
+    told = "Open one run: write it as a case file beside the store, make it, and report on it."
+    parser.add_argument("--open", type=int, metavar="RUN", default=None, help=told)
+    told = "A dask scheduler whose workers make the runs: its address or scheduler file."
+    parser.add_argument("--scheduler", metavar="ADDRESS", default=None, help=told)
     told = "Go on with a store that is there."
     parser.add_argument("--resume", action="store_true", help=told)
     _takes_json(parser)
+    told = "Write the report, a page beside the store, or not."
+    parser.add_argument("--report", action=BooleanOptionalAction, default=True, help=told)
 
     def work(given: Namespace) -> int:
+        if given.open is not None:
+            from bumpstop.cli.open_run import open_command
+
+            return open_command(given.study, given.open, store=given.store, json=given.json)
         from bumpstop.cli.sweep import sweep_command
 
         return sweep_command(
             given.study,
             store=given.store,
             workers=given.workers,
+            scheduler=given.scheduler,
             resume=given.resume,
             json=given.json,
+            report=given.report,
         )
 
     return work

@@ -12,7 +12,7 @@ import numpy as np
 from bumpstop.arguments import did_you_mean, positive
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.io.case import Case
-from bumpstop.methods import ADAPTIVE_METHODS, FIXED_STEP_METHODS, METHODS, usable_options
+from bumpstop.methods import FIXED_STEP_METHODS, METHODS, TOLERANCE_METHODS, usable_options
 from bumpstop.post.references import Check, check_frequencies, check_references
 from bumpstop.response import Response
 from bumpstop.simulate import simulate
@@ -73,9 +73,11 @@ class Stepping(NamedTuple):
             hint = did_you_mean(self.method, METHODS)
             raise InputError("unknown method", key="--method", value=self.method, hint=hint)
         if self.rtol is not None:
-            if self.method not in ADAPTIVE_METHODS:
-                hint = f"give --method, too: {' or '.join(ADAPTIVE_METHODS)}"
-                raise InputError("only adaptive methods take it", key="--rtol", hint=hint)
+            if self.method not in TOLERANCE_METHODS:
+                hint = f"give --method, too: {' or '.join(TOLERANCE_METHODS)}"
+                raise InputError(
+                    "only methods that follow a tolerance take it", key="--rtol", hint=hint
+                )
             positive("--rtol", self.rtol)
         if self.dt is not None:
             if self.method not in FIXED_STEP_METHODS:

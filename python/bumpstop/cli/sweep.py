@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,24 +13,34 @@ import numpy as np
 from bumpstop.arguments import count
 from bumpstop.cli.console import Table, print_error, print_json, print_line, print_table
 from bumpstop.cli.progress import runs_display
+from bumpstop.study.basins import SECTION, Attractor, classified
 from bumpstop.study.evaluation import FAILED
-from bumpstop.study.execution import Summary, execute
+from bumpstop.study.execution import Summary, execute, hired
 from bumpstop.study.layout import unpacked_message
-from bumpstop.study.load import read_study
+from bumpstop.study.load import LoadedStudy, read_study
 
 if TYPE_CHECKING:
     from bumpstop.study.parameters import Level
-    from bumpstop.study.store import Reader
+    from bumpstop.study.store import Reader, Store
     from bumpstop.study.study import Study
 
 __all__ = ["sweep_command"]
 
 NONE_GOOD = 3
 TOLD_FAILURES = 5
+MOST_REPORTED = 1_000_000
+"""Runs whose results are read into memory at once, to be drawn."""
 
 
 def sweep_command(
-    path: Path, *, store: Path | None, workers: int | None, resume: bool, json: bool
+    path: Path,
+    *,
+    store: Path | None,
+    workers: int | None,
+    scheduler: str | None,
+    resume: bool,
+    json: bool,
+    report: bool,
 ) -> int:
     """Make the runs of a study file, and tell what came out; return the exit status.
 
@@ -38,20 +50,45 @@ def sweep_command(
     study, folder = loaded.study, store or loaded.store
     if workers is not None:
         count("--workers", workers)
-    opened = study.opened(folder, resume=resume)
-    try:
-        with runs_display(loaded.title) as tell:
-            summary = execute(study, opened, workers or loaded.workers, tell)
-    except KeyboardInterrupt:
-        there = np.count_nonzero(opened.read("status"))
-        print_error(f"interrupted: {there} of {study.runs.count} runs are kept; go on by --resume")
-        raise
+    with hired(scheduler) as cluster:
+        opened = study.opened(folder, resume=resume)
+        try:
+            with runs_display(loaded.title) as tell:
+                summary = execute(study, opened, workers or loaded.workers, tell, cluster)
+        except KeyboardInterrupt:
+            there = np.count_nonzero(opened.read("status"))
+            print_error(
+                f"interrupted: {there} of {study.runs.count} runs are kept; go on by --resume"
+            )
+            raise
     found = _Found(study, opened.read)
-    if json:
-        print_json(_record(loaded.title, summary, folder, found))
-    else:
+    if not json:  # before the page, which a full disk may have no room for
         _print(loaded.title, summary, folder, found)
+    page = _page(loaded, opened, folder, _opened_by(path, store)) if report else None
+    if json:
+        print_json(_record(loaded.title, summary, folder, found) | {"report": page and str(page)})
+    elif page is not None:
+        print_line(f"report in {page}")
     return NONE_GOOD if summary.failed == summary.runs else 0
+
+
+def _page(loaded: LoadedStudy, store: Store, folder: Path, opened_by: str) -> Path | None:
+    """Write the report beside the store; None where there are too many runs to draw."""
+    study = loaded.study
+    if study.runs.count > MOST_REPORTED:
+        return None
+    from bumpstop.report.html import write_study
+
+    page = folder.with_name(f"{folder.stem}.html")
+    results = study.labelled(store)
+    write_study(study, results, page, title=loaded.title, opened_by=opened_by)
+    return page
+
+
+def _opened_by(path: Path, store: Path | None) -> str:
+    """Return the command that opens a run, up to its number."""
+    beside = [] if store is None else ["--store", str(store)]
+    return shlex.join(["bumpstop", "sweep", str(path), *beside, "--open"])
 
 
 class _Extremes(NamedTuple):
@@ -74,7 +111,8 @@ class _Found:
     @property
     def units(self) -> dict[str, str]:
         """The unit of each output."""
-        return {name: each.attributes["units"] for name, each in self._study.outputs.items()}
+        outputs = self._study.outputs.items()
+        return {name: each.attributes["units"] for name, each in outputs if name not in SECTION}
 
     @property
     def failed(self) -> list[int]:
@@ -91,6 +129,12 @@ class _Found:
         """Return the values that a run had."""
         row = self._study.runs.row(run)
         return {name: row[name] for name in self._study.parameters}
+
+    @cached_property
+    def attractors(self) -> tuple[Attractor, ...]:
+        """The attractors that runs end on, where they are asked for."""
+        basins = self._study.basins
+        return () if basins is None else classified(basins, *map(self._read, SECTION)).attractors
 
     def extremes(self, name: str) -> _Extremes | None:
         """Return the smallest and largest value of an output; None where it has none."""
@@ -111,14 +155,8 @@ def _print(title: str, summary: Summary, folder: Path, found: _Found) -> None:
     print_line(title, style="bold")
     print_line(_told(summary))
     print_line()
-    rows = [_row(name, units, found) for name, units in found.units.items()]
-    print_table(
-        Table(
-            headers=("output", "unit", "smallest", "mean", "largest", "the largest with"),
-            rows=rows,
-            labels=2,
-        )
-    )
+    _print_outputs(found)
+    _print_attractors(found)
     if summary.failed:
         print_line()
         print_line(f"{summary.failed} failed, such as", style="bold red")
@@ -126,6 +164,30 @@ def _print(title: str, summary: Summary, folder: Path, found: _Found) -> None:
             print_line(f"  {_listed(found.parameters(run))}: {found.message(run)}")
     print_line()
     print_line(f"written to {folder}")
+
+
+def _print_outputs(found: _Found) -> None:
+    rows = [_row(name, units, found) for name, units in found.units.items()]
+    if rows:
+        headers = ("output", "unit", "smallest", "mean", "largest", "the largest with")
+        print_table(Table(headers=headers, rows=rows, labels=2))
+
+
+def _print_attractors(found: _Found) -> None:
+    if not found.attractors:
+        return
+    rows = [
+        (
+            str(number),
+            f"{each.runs:,}",
+            str(each.periods),
+            f"{each.displacement[0]:.6g}",
+            f"{each.velocity[0]:.6g}",
+        )
+        for number, each in enumerate(found.attractors, start=1)
+    ]
+    headers = ("attractor", "runs", "periods", "displacement (m)", "velocity (m/s)")
+    print_table(Table(headers=headers, rows=rows, labels=1))
 
 
 def _told(summary: Summary) -> str:
@@ -166,6 +228,15 @@ def _record(title: str, summary: Summary, folder: Path, found: _Found) -> dict[s
             name: {"units": units, **_extremes_record(found, name)}
             for name, units in found.units.items()
         },
+        "attractors": [
+            {
+                "runs": each.runs,
+                "periods": each.periods,
+                "displacement": each.displacement.tolist(),
+                "velocity": each.velocity.tolist(),
+            }
+            for each in found.attractors
+        ],
         "failures": [
             {"run": run, "parameters": found.parameters(run), "message": found.message(run)}
             for run in found.failed

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
@@ -11,12 +11,15 @@ import numpy as np
 
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
+from bumpstop.instants import Grid
 from bumpstop.io.netcdf_format import Growth, Variable, write_file
+from bumpstop.laws.coordinate import coordinates_of
 from bumpstop.post.energy import ledger
 from bumpstop.projection import TRANSLATIONS
 from bumpstop.quantities import (
     ENERGIES,
     IMPACTS,
+    INTERNAL_VARIABLES,
     QUANTITIES,
     STATE,
     STOP_ENERGIES,
@@ -38,7 +41,7 @@ if TYPE_CHECKING:
     from bumpstop.response import Response
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["states_of", "write_netcdf"]
+__all__ = ["internal_names", "states_of", "write_netcdf"]
 
 MOST_NUMBERS = 1_000_000
 """Columns times instants, of which a block has no more; each makes a few numbers."""
@@ -46,7 +49,8 @@ OTHER_COLUMNS = 20
 """Columns of the ledger and of all else that is there once."""
 MOST_SHAPES = 2_000_000
 """Numbers in the shapes of the largest basis that is kept with its response."""
-TIME = {"units": "s", "long_name": "time"}
+NOTHING: Mapping[str, float] = {}
+TIME: Mapping[str, str | float] = {"units": "s", "long_name": "time"}
 
 
 def write_netcdf(
@@ -77,7 +81,7 @@ def write_netcdf(
     title, case, variant
         Where the problem comes from.
     results
-        Results of its case whose numbers are to be in the file.
+        Results of its case whose numbers and curves are to be in the file.
 
     Raises
     ------
@@ -89,12 +93,18 @@ def write_netcdf(
     length, words = len(response.instants), states_of(response)
     blocks = response.blocks(_block(response))
     first = [
-        *_over_time(next(blocks)[1], words),
+        *_over_time(next(blocks)[1], words, _grid(response)),
         *_of_the_run(response, words),
         *_results(response, results),
     ]
     with written_whole(path) as part:
         write_file(part, first, told, Growth("time", length, _further(blocks, words)))
+
+
+def _grid(response: Response) -> Mapping[str, float]:
+    """Return what tells evenly spaced instants, so that they need not be read."""
+    instants = response.instants
+    return {"step": instants.step, "end": instants.end} if isinstance(instants, Grid) else NOTHING
 
 
 def _block(response: Response) -> int:
@@ -121,11 +131,13 @@ def _of_the_run(response: Response, words: list[str]) -> Iterator[Variable]:
     yield from _problem(response.problem)
 
 
-def _over_time(response: Response, words: list[str]) -> Iterator[Variable]:
+def _over_time(
+    response: Response, words: list[str], grid: Mapping[str, float] = NOTHING
+) -> Iterator[Variable]:
     """Give what is a function of time, and what its other dimensions are."""
     # Read once, used by several: reading from the core takes longer than writing.
     motions = [response.motion(derivative) for derivative in range(len(MOTIONS))]
-    yield Variable("time", ("time",), response.times, TIME)
+    yield Variable("time", ("time",), response.times, {**TIME, **grid})
     if not response.problem.basis.unreduced:
         yield from _modes(response, motions)
     yield from _stops(response, words)
@@ -176,7 +188,54 @@ def _stops(response: Response, words: list[str]) -> Iterator[Variable]:
         yield Variable("friction_force", ("time", "stop"), slides, attributes)
         attributes = {"units": "N", "long_name": "friction force along the axis of the obstacle"}
         yield Variable("axial_force", ("time", "stop"), axial, attributes)
+    yield from _law_forces(response)
+    yield from _internal_variables(response)
     yield _states(response, stops, words)
+
+
+def _law_forces(response: Response) -> Iterator[Variable]:
+    """Give the forces along the coordinates of laws, where one has several."""
+    names = coordinate_names(response.problem)
+    if len(names) == len(response.problem.laws):
+        return
+    number = range(len(response.problem.laws))
+    forces = [response.history.law_forces(law, response.times) for law in number]
+    told = {"long_name": "law, and number of its coordinate"}
+    yield Variable("law_coordinate", ("law_coordinate",), _texts(names), told)
+    attributes = {"units": "N", "long_name": "force of each law along each of its coordinates"}
+    yield Variable("law_force", ("time", "law_coordinate"), np.hstack(forces), attributes)
+
+
+def coordinate_names(problem: Problem) -> list[str]:
+    """Return the coordinates of all laws in the order of a file, by law and number."""
+    return [
+        f"{law.name} {place}"
+        for law in problem.laws
+        for place in range(1, 1 + len(coordinates_of(law, problem.basis)))
+    ]
+
+
+def _internal_variables(response: Response) -> Iterator[Variable]:
+    """Give what laws remember, a variable each."""
+    for name, (number, column, remembered) in internal_names(response.problem).items():
+        values = response.history.internal_variables(number, response.times)[:, column].copy()
+        attributes = INTERNAL_VARIABLES[remembered].attributes
+        law = response.problem.laws[number].name
+        yield Variable(name, ("time",), values, attributes | {"stop": law})
+
+
+def internal_names(problem: Problem) -> dict[str, tuple[int, int, str]]:
+    """Return what variables of internal variables are called in a file.
+
+    For each the number of its law, its place among those that the law has, and which it is.
+    """
+    found = [
+        (number, column, remembered)
+        for number, law in enumerate(problem.laws)
+        for column, remembered in enumerate(getattr(law, "internal_variables", ()))
+    ]
+    names = plain_names(f"internal_{what}_{problem.laws[law].name}" for law, _, what in found)
+    return dict(zip(names, found, strict=True))
 
 
 def _states(response: Response, stops: list[str], names: list[str]) -> Variable:
@@ -294,10 +353,13 @@ def _events(response: Response) -> Iterator[Variable]:
 
 
 def _results(response: Response, results: Sequence[Result]) -> Iterator[Variable]:
-    """Give the numbers of results, a row each."""
+    """Give the numbers of results, a row each, and their curves."""
     if not results:
         return
+    from bumpstop.io.curves import curve_variables
     from bumpstop.post.results.reading import read_result
+
+    yield from curve_variables(response, results)
 
     facts = [(each.name, fact) for each in results for fact in read_result(each, response).facts]
     if not facts:

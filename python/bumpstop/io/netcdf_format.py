@@ -4,6 +4,10 @@ Written with h5py alone, through the calls of it that go straight to HDF5: a sho
 what a file of fifty small variables takes. ``h5py.File.create_dataset`` and the like need more
 than twice as long, and h5netcdf, which xarray reads these files with, ten times.
 
+Damage is seen when a file is read: numbers lie in pieces with a checksum each, which HDF5 looks
+at in whatever program; so do all that it keeps of names and attributes since version 1.8; texts,
+which lie in a heap without, have one in an attribute.
+
 References
 ----------
 Unidata, *NetCDF file format specifications*, "The NetCDF-4/HDF5 file format".
@@ -11,6 +15,8 @@ Unidata, *NetCDF file format specifications*, "The NetCDF-4/HDF5 file format".
 
 from __future__ import annotations
 
+import math
+import zlib
 from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,18 +25,31 @@ import h5py
 import numpy as np
 from h5py import h5a, h5d, h5ds, h5p, h5s, h5t
 
+from bumpstop.io.room import new_hdf5
+
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-__all__ = ["Growth", "Variable", "write_file"]
+__all__ = ["CHECKSUM", "Growth", "Variable", "checksum", "write_file"]
 
 NO_VARIABLE = b"This is a netCDF dimension but not a netCDF variable.%10d"
 """What the format wants a dimension scale to be called that stands for no variable."""
 
 IN_ORDER = h5p.CRT_ORDER_TRACKED | h5p.CRT_ORDER_INDEXED
 """The format keeps dimensions, variables and attributes in the order in which they were made."""
+
+CHECKSUM = "crc32"
+"""The attribute that has the checksum of a variable of texts.
+
+Those of numbers are kept by HDF5 itself, one for each piece; texts lie in a heap that has none.
+"""
+PIECE = 65_536
+"""Numbers in a piece that has a checksum of its own: half of what HDF5 holds of each variable."""
+
+HEAD = 8192
+"""Bytes that name, attributes and index of a variable take at most."""
 
 GROWTH = 1024
 """Values in a piece of a dimension without length: it can only be one that may grow."""
@@ -63,6 +82,16 @@ class Growth(NamedTuple):
     """Where each block begins, and its variables; those without the dimension are passed over."""
 
 
+def checksum(words: list[bytes]) -> str:
+    """Return the checksum of some texts.
+
+    >>> checksum([b"open", b"closed"])
+    '3872ccaf'
+    """
+    joined = b"\0".join(words)
+    return f"{zlib.crc32(joined):08x}"
+
+
 def write_file(
     path: Path,
     variables: Iterable[Variable],
@@ -82,18 +111,31 @@ def write_file(
     further
         More of the variables that begin with one dimension.
     """
-    with h5py.File(path, "w", track_order=True) as file:
+    listed = list(variables)
+    lengths = {} if further is None else {further.dimension: further.length}
+    size = sum(_size(each, lengths) for each in listed)
+    with new_hdf5(path, size, track_order=True, libver=("v108", "v108")) as file:
         group = file["/"].id
         _set_attributes(group, {"_NCProperties": f"version=2,h5py={h5py.__version__}"})
         _set_attributes(group, attributes)
-        listed = list(variables)
-        lengths = {} if further is None else {further.dimension: further.length}
         datasets = {variable.name: _dataset(group, variable, lengths) for variable in listed}
         scales = _scales(group, listed, datasets, lengths)
         for variable in listed:
             _tie(datasets[variable.name], variable, scales)
         if further is not None:
             _write_further(further, datasets)
+
+
+def _size(variable: Variable, lengths: Mapping[str, int]) -> int:
+    """Return how many bytes a variable takes in the whole file, at most."""
+    values = variable.values
+    shape: list[int] = [
+        lengths.get(dimension, length)
+        for dimension, length in zip(variable.dimensions, values.shape, strict=True)
+    ]
+    # Texts lie in a heap beside the references to them.
+    words = sum(4 * len(text) + 64 for text in values.flat) if values.dtype.hasobject else 0
+    return HEAD + words + values.itemsize * math.prod(shape)
 
 
 def _dataset(
@@ -111,6 +153,9 @@ def _dataset(
     elif values.size:
         dataset.write(h5s.ALL, h5s.ALL, values, in_memory)
     _set_attributes(dataset, variable.attributes)
+    if values.dtype.hasobject:
+        words = [str(text).encode() for text in values]
+        _set_attributes(dataset, {CHECKSUM: checksum(words)})
     return dataset
 
 
@@ -138,17 +183,25 @@ def _created(
 ) -> h5d.DatasetID:
     largest = tuple(length or h5s.UNLIMITED for length in shape)
     space = h5s.create_simple(shape, largest)
-    return h5d.create(group, name.encode(), stored, space, _layout(shape if 0 in shape else ()))
+    is_text = isinstance(stored, h5t.TypeStringID)
+    return h5d.create(group, name.encode(), stored, space, _layout(shape, is_text))
 
 
 @cache
-def _layout(growing: tuple[int, ...]) -> h5p.PropDCID:
-    """Return how a dataset is stored, in pieces where its shape has a dimension without length."""
+def _layout(shape: tuple[int, ...], is_text: bool) -> h5p.PropDCID:
+    """Return how a dataset is stored: numbers in pieces, each with its checksum.
+
+    Texts are, too, where a dimension is without length.
+    """
     layout = h5p.create(h5p.DATASET_CREATE)
     layout.set_obj_track_times(False)
     layout.set_attr_creation_order(IN_ORDER)
-    if growing:
-        layout.set_chunk(tuple(length or GROWTH for length in growing))
+    if 0 in shape:
+        layout.set_chunk(tuple(length or GROWTH for length in shape))
+    elif not is_text:
+        rows = max(PIECE // math.prod(shape[1:]), 1)
+        layout.set_chunk((min(rows, shape[0]), *shape[1:]))
+        layout.set_fletcher32()
     return layout
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from bumpstop.quantities import QUANTITIES, dof_units, plain_names
+from bumpstop.quantities import INTERNAL_VARIABLES, QUANTITIES, dof_units, plain_names
 from bumpstop.sampling import MOTIONS
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def signals(response: Response, longest: int | None = None) -> list[Signal]:
 
     Motions of the problem's outputs and of the nodes at the stops; of the dof that the modes
     know first, where there is neither; forces and gaps of the stops, with friction their forces
-    along the obstacles; strains of the gauges.
+    along the obstacles; what laws remember; strains of the gauges.
     """
     problem = response.problem
     places = [*problem.outputs, *(dof for law in problem.laws for dof in law.coordinate.dofs)]
@@ -52,8 +52,10 @@ def signals(response: Response, longest: int | None = None) -> list[Signal]:
         found += [(quantity, law.name) for quantity in ("stop_force", "gap")]
         if getattr(law, "friction", None) is not None:
             found.append(("friction_force", law.name))
+        remembered: tuple[str, ...] = getattr(law, "internal_variables", ())
+        found += [("internal_variable", law.name, each) for each in remembered]
     found += [("gauge", gauge.name) for gauge in problem.gauges]
-    names = plain_names(("_".join(parts) for parts in found), longest)
+    names = plain_names(("_".join(_named(*parts)) for parts in found), longest)
     return [_signal(name, *parts) for name, parts in zip(names, found, strict=True)]
 
 
@@ -66,10 +68,20 @@ def sampled_blocks(
         yield times, [response.sample(each.quantity, *each.target, times=times) for each in wanted]
 
 
+def _named(quantity: str, *target: str) -> tuple[str, ...]:
+    """Return the parts of a name: an internal variable goes by its own."""
+    if quantity == "internal_variable":
+        law, variable = target
+        return variable, law
+    return quantity, *target
+
+
 def _signal(name: str, quantity: str, *target: str) -> Signal:
     if quantity in MOTIONS:
         node, dof = target
         told = f"{quantity} of {node} along {dof}"
         return Signal(quantity, target, dof_units(quantity, dof), told, name)
-    what = QUANTITIES[quantity]
+    what = (
+        INTERNAL_VARIABLES[target[1]] if quantity == "internal_variable" else QUANTITIES[quantity]
+    )
     return Signal(quantity, target, what.units, f"{what.long_name} ({target[0]})", name)

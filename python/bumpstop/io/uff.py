@@ -79,7 +79,9 @@ def write_uff(response: Response, path: str | PathLike[str]) -> None:
     nodes = list(dict.fromkeys(node for node, _ in response.problem.basis.dofs))
     with written_whole(path) as part, part.open("w", encoding="ascii", errors="replace") as file:
         file.write(f"{FENCE}{SI}{FENCE}")
-        for number, signal in enumerate(signals(response), start=1):
+        # What laws remember is no kind of quantity of the format.
+        told = [each for each in signals(response) if each.quantity in _KINDS]
+        for number, signal in enumerate(told, start=1):
             file.write(f"{FENCE}    58\n")
             file.writelines(_head(response, signal, number, nodes))
             _write_values(file, response, signal)

@@ -6,7 +6,6 @@ point data at each time step. Written with h5py alone.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from os import PathLike
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,9 @@ import numpy as np
 
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
+from bumpstop.io.room import new_hdf5
 from bumpstop.io.signals import BLOCK
+from bumpstop.laws.coordinate import coordinates_of
 from bumpstop.projection import TRANSLATIONS
 from bumpstop.sampling import MOTIONS
 from bumpstop.structure.drawn import DrawnModel
@@ -30,6 +31,8 @@ __all__ = ["write_vtk"]
 
 CELLS = ("Vertices", "Lines", "Polygons", "Strips")
 """Kinds of cells, in the order of the format."""
+PLACES = 200
+"""Bytes that say where the data of a step begin."""
 FIELDS = (*MOTIONS[:2], "contact_force")
 
 
@@ -37,8 +40,8 @@ def write_vtk(response: Response, path: str | PathLike[str]) -> None:
     """Write the motion of a structure, tabulated at its response's times, to a VTKHDF file.
 
     Points are the nodes at rest, lines the beams. At each instant points have the vectors
-    ``displacement`` (m; warp by it), ``velocity`` (m/s) and ``contact_force`` (N, what stops push
-    the structure with along their normals). ParaView 5.12 and later play it.
+    ``displacement`` (m; warp by it), ``velocity`` (m/s) and ``contact_force`` (N, what stops and
+    other laws push the structure with, friction too). ParaView 5.12 and later play it.
 
     Parameters
     ----------
@@ -55,7 +58,9 @@ def write_vtk(response: Response, path: str | PathLike[str]) -> None:
     """
     nodes, positions = _places(response.problem.basis)
     lines = _lines(response.problem.basis, nodes)
-    with written_whole(path) as part, h5py.File(part, "w") as file:
+    steps, moved = len(response.instants), 8 * 3 * len(FIELDS) * len(nodes)
+    size = steps * (moved + PLACES) + 8 * PLACES * len(nodes)
+    with written_whole(path) as part, new_hdf5(part, size) as file:
         root = file.create_group("VTKHDF")
         root.attrs["Version"] = np.array([2, 0])
         root.attrs.create("Type", b"PolyData", dtype=h5py.string_dtype("ascii", 8))
@@ -154,19 +159,16 @@ def _carried(
 
 
 def _forces(response: Response, nodes: list[str], times: FloatArray) -> FloatArray:
-    """Return the forces of the stops on their nodes, (times, nodes, 3)."""
+    """Return the forces of the laws on their nodes, friction too, (times, nodes, 3)."""
     forces = np.zeros((len(times), len(nodes), 3))
-    for law in response.problem.laws:
-        if law.coordinate.terms is not None:  # it pushes along no one direction
-            continue
-        value = response.sample("stop_force", law.name, times=times)
-        for node, sign in _pushed(law.coordinate.node, law.coordinate.other, nodes):
-            forces[:, nodes.index(node)] += sign * np.outer(value, law.coordinate.direction)
+    for number, law in enumerate(response.problem.laws):
+        along = coordinates_of(law, response.problem.basis)
+        columns = response.history.law_forces(number, times).T
+        for coordinate, values in zip(along, columns, strict=True):
+            if coordinate.terms is not None:  # it pushes along no one direction
+                continue
+            pushed = np.outer(values, coordinate.direction)
+            for node, sign in ((coordinate.node, 1.0), (coordinate.other, -1.0)):
+                if node in nodes:  # points between nodes are none
+                    forces[:, nodes.index(str(node))] += sign * pushed
     return forces
-
-
-def _pushed(node: str | None, other: str | None, nodes: list[str]) -> Iterator[tuple[str, float]]:
-    """Yield the nodes that a stop pushes, and those that it pushes back; points are none."""
-    for place, sign in ((node, 1.0), (other, -1.0)):
-        if place in nodes:
-            yield str(place), sign

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 __all__ = ["write_wav"]
 
+FASTEST = 1_000_000
+"""Samples a second at most: more than any player takes."""
 LOUDEST = 0.99 * 32767
 """The largest sample, of sixteen bits."""
 MOST = 2**31 - 256
@@ -64,7 +66,9 @@ def write_wav(
         chosen = next(each for each in signals(response) if each.quantity == "velocity")
         quantity, target = chosen.quantity, chosen.target
     one_of("quantity", quantity, tuple(QUANTITIES))
-    pace = count("rate", rate) * positive("slowed", slowed)
+    if quantity.startswith("modal_") and not target:
+        raise InputError("must be one mode, counted from 1", key="target", value=quantity)
+    pace = count("rate", rate, most=FASTEST) * positive("slowed", slowed)
     samples = int(response.problem.duration * pace) + 1
     if 2 * samples > MOST:
         what = f"would make {samples:,} samples, more than a WAV file holds"

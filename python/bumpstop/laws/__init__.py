@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from bumpstop.laws.friction import Friction
     from bumpstop.laws.hardening_spring import HardeningSpring
     from bumpstop.laws.hertz_stop import HertzStop
+    from bumpstop.laws.outside_program import OutsideProgram
     from bumpstop.laws.plane_stop import PlaneStop
     from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
@@ -31,6 +32,7 @@ __all__ = [
     "Friction",
     "HardeningSpring",
     "HertzStop",
+    "OutsideProgram",
     "PlaneStop",
     "PolarStop",
     "RigidStop",
@@ -49,6 +51,7 @@ _HOME = {
     "Friction": "friction",
     "HardeningSpring": "hardening_spring",
     "HertzStop": "hertz_stop",
+    "OutsideProgram": "outside_program",
     "PlaneStop": "plane_stop",
     "PolarStop": "polar_stop",
     "RigidStop": "rigid_stop",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from bumpstop.arguments import finite, not_negative, pair, positive
 from bumpstop.errors import InputError
@@ -89,6 +89,8 @@ class BucklingStop(Contact):
     >>> print(*(f"{time:.6f}" for time in response.event_table()["time"]))
     0.523599 3.987700
     """
+
+    internal_variables: ClassVar[tuple[str, ...]] = ("largest_crushing", "residual_crushing")
 
     _: KW_ONLY
     stiffness: float

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
@@ -16,9 +16,11 @@ from bumpstop.structure.dofs import Dof
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.problem import Law
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["Coordinate", "Terms", "unit"]
+__all__ = ["Coordinate", "Terms", "coordinates_of", "unit"]
 
 Terms = Mapping[Dof, float]
 """The weight of each (node, dof)."""
@@ -117,19 +119,48 @@ class Coordinate:
 
     def nodal_force(self, model: LinearModel) -> FloatArray:
         """Return a unit force along the coordinate on each dof of a model, (dofs,)."""
-        if self.terms is not None:
-            weights = dict(self.terms)
-        else:
-            along = list(zip(TRANSLATIONS, self.direction, strict=True))
-            weights = {(self.node, dof): part for dof, part in along}
-            if self.other is not None:
-                weights |= {(self.other, dof): -part for dof, part in along}
         total = np.zeros(len(model.dofs))
-        for (node, dof), weight in weights.items():
+        for (node, dof), weight in self._weights.items():
             if weight != 0.0:
                 form = model.displacement_form(node, dof)
                 np.add.at(total, form.dofs, weight * form.weights)
         return total
+
+    def inside(self, cut: Cut) -> FloatArray:
+        """Return what a unit force does inside an element, where it acts on points of it, (r,)."""
+        total: FloatArray = 0.0 * cut.kernel(cut.at)[:, 0]
+        for (node, dof), weight in self._weights.items():
+            total += cut.of_point(node, {dof: weight})
+        return total
+
+    @property
+    def _weights(self) -> dict[Dof, float]:
+        """The weight of each dof."""
+        if self.terms is not None:
+            return dict(self.terms)
+        along = list(zip(TRANSLATIONS, self.direction, strict=True))
+        weights = {(self.node, dof): part for dof, part in along}
+        if self.other is not None:
+            weights |= {(self.other, dof): -part for dof, part in along}
+        return weights
+
+
+def coordinates_of(law: Law, basis: ModalBasis) -> list[Coordinate]:
+    """Return the coordinates of a law, in the order in which the core tells forces.
+
+    Stops on a plane have that of their normal and, with friction, that of sliding; round ones two
+    across their axis and, with friction, the axis; laws of one's own all their directions.
+    """
+    several: Sequence[Coordinate] | None = getattr(law, "coordinates", None)
+    if several is not None:
+        return list(several)
+    own = law.coordinate
+    if getattr(law, "friction", None) is not None:
+        from bumpstop.laws.friction import sliding_coordinate
+
+        return [own, sliding_coordinate(basis, own, getattr(law, "sliding", None))]
+    further = getattr(law, "further_directions", ())
+    return [own, *(Coordinate(own.node, direction, own.other) for direction in further)]
 
 
 def unit(key: str, value: object) -> Vector:

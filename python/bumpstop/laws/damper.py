@@ -123,6 +123,10 @@ class DamperLaw(Connection):
         breaks, damping = np.array(self.breaks, np.float64), np.array(self.damping)
         return _core.Damper(self.row(basis), breaks, damping, self.offset)
 
+    def static_force(self, place: float) -> tuple[float, float]:  # noqa: ARG002  # the same for any
+        """Return the force in N on the structure at rest, and its slope, which is zero."""
+        return -self.force([0.0]).item(), 0.0
+
     def force(self, speed: FloatArray | Sequence[float]) -> FloatArray:
         """Return the force in N with which it resists, for speeds in m/s."""
         return line_values(speed, self.damping, self.breaks, self.offset)

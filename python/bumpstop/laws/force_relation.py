@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 __all__ = ["ForceRelation"]
 
+STEP = 1e-6
+"""Of the displacement, or of a metre at none: half the step of a difference."""
+
 
 @dataclass(frozen=True)
 class ForceRelation(Connection):
@@ -102,6 +105,17 @@ class ForceRelation(Connection):
         v = np.full(x.size, finite("velocity", velocity))
         relation = _core.ForceRelation(np.zeros(1), self._program)
         return relation.force(x.ravel(), v).reshape(x.shape)
+
+    @property
+    def static_stiffness(self) -> float:
+        """Its stiffness in N/m about no displacement, a scale of what it resists with."""
+        return abs(self.static_force(0.0)[1])
+
+    def static_force(self, place: float) -> tuple[float, float]:
+        """Return the force in N on the structure, ``place`` m along, at rest, and its slope."""
+        step = STEP * (abs(place) or 1.0)
+        before, here, after = self.force_at([place - step, place, place + step]).tolist()
+        return here, (after - before) / (2.0 * step)
 
     def core(self, basis: ModalBasis) -> _core.ForceRelation:
         """Return the relation as the core sees it; see `row`."""

@@ -16,7 +16,7 @@ from bumpstop.projection import TRANSLATIONS
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["Friction", "component_row", "sliding_coordinate", "sliding_row"]
+__all__ = ["Friction", "checked_sliding", "component_row", "sliding_coordinate", "sliding_row"]
 
 ONE_DIRECTION = 1e-9
 """Motions across the only direction that is not theirs, relative to those along it."""
@@ -78,6 +78,23 @@ class Friction:
         if "static" not in value:
             raise InputError("must have a static coefficient", key="friction", value=dict(value))
         return cls(**value)
+
+
+def checked_sliding(contact: Coordinate, sliding: object) -> Vector | Terms | None:
+    """Return a direction of sliding as a unit vector, or as checked weights of dofs.
+
+    Raises
+    ------
+    InputError
+        If it is no direction, or the normal of the contact.
+    """
+    if sliding is None:
+        return None
+    if isinstance(sliding, Mapping):
+        return Coordinate.of(None, "sliding", None, terms=sliding).terms
+    direction = unit("sliding", sliding)
+    tangent(contact.direction, direction)
+    return direction
 
 
 def sliding_row(

@@ -81,6 +81,7 @@ class HardeningSpring(Connection):
     """
 
     kind: ClassVar[str] = "spring"
+    internal_variables: ClassVar[tuple[str, ...]] = ("plastic_elongation", "plastic_path")
 
     _: KW_ONLY
     curve: Sequence[Sequence[float]]
@@ -144,6 +145,13 @@ class HardeningSpring(Connection):
         slope = (end[1] - before[1]) / (end[0] - before[0])
         beyond = np.maximum(np.abs(x) - end[0], 0.0) * slope
         return np.asarray(np.sign(x) * (np.interp(np.abs(x), *points.T) + beyond))
+
+    def static_force(self, place: float) -> tuple[float, float]:
+        """Return the force in N on the structure, ``place`` m along in one pull, and its slope."""
+        points = np.vstack([[0.0, 0.0], np.array(self.curve)])
+        slopes = np.diff(points[:, 1]) / np.diff(points[:, 0])
+        segment = int(np.searchsorted(points[1:-1, 0], abs(place), side="right"))
+        return -float(self.force([place])[0]), -float(slopes[segment])
 
     def core(self, basis: ModalBasis) -> _core.HardeningSpring:
         """Return the spring as the core sees it; see `row`."""

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, finite
+from bumpstop.arguments import FloatArray, Vector, finite, not_negative
 from bumpstop.errors import InputError
 from bumpstop.laws.contact import Contact
+from bumpstop.laws.coordinate import Terms
 
 if TYPE_CHECKING:
     from bumpstop import _core
@@ -30,7 +31,9 @@ class RigidStop(Contact):
 
     The distance ``d = gap + normal . (u - u_other)`` never becomes negative. At an impact its
     rate turns from ``d'`` to ``-restitution d'``; rebounds that become too low to be told from
-    nothing end in rest, until a load lifts the structure off. The exact method alone takes it.
+    nothing end in rest, until a load lifts the structure off. The exact method and
+    ``moreau_jean`` take it; with friction, Coulomb's between the impulses along the obstacle and
+    its normal, ``moreau_jean`` alone does.
 
     Parameters
     ----------
@@ -54,11 +57,20 @@ class RigidStop(Contact):
     resolution
         Rebounds lower than this part of the motion, as the largest sum of the sizes of the terms
         of the distance, are not followed: the structure comes to rest. From 1e-13 to 1.
+    motion
+        Refused: rigid stops do not move.
+    friction
+        Coefficient of friction along the obstacle; it does not rub where left out.
+    sliding
+        Direction along the obstacle in which it rubs, or weights of dofs as in ``terms``; may be
+        left out where the modes move the node in one direction only along the obstacle.
 
     Raises
     ------
     InputError
-        If a number is out of its range, the normal has no length, or the obstacle is unknown.
+        If a number is out of its range, the normal has no length, the obstacle is unknown, or a
+        motion is given, or a sliding direction without friction or that does not lie along the
+        obstacle.
 
     References
     ----------
@@ -81,9 +93,15 @@ class RigidStop(Contact):
     _: KW_ONLY
     restitution: float
     resolution: float = 1e-12
+    motion: None = None
+    friction: float | None = None
+    sliding: Vector | Terms | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if self.motion is not None:
+            what, hint = "rigid stops do not move", "a Stop with a stiffness does"
+            raise InputError(what, key="motion", value=self.motion, hint=hint)
         restitution = finite("restitution", self.restitution)
         if not 0.0 <= restitution <= 1.0:
             raise InputError("must be from 0 to 1", key="restitution", value=self.restitution)
@@ -94,6 +112,35 @@ class RigidStop(Contact):
             hint = "finer ones are lost in rounding"
             raise InputError(what, key="resolution", value=self.resolution, hint=hint)
         object.__setattr__(self, "resolution", resolution)
+        self._check_friction()
+
+    def _check_friction(self) -> None:
+        if self.friction is None:
+            if self.sliding is not None:
+                hint = "give the coefficient, friction = 0.2"
+                what = "belongs to friction"
+                raise InputError(what, key="sliding", value=self.sliding, hint=hint)
+            return
+        from bumpstop.laws.friction import checked_sliding
+
+        object.__setattr__(self, "friction", not_negative("friction", self.friction))
+        sliding = checked_sliding(self.coordinate, self.sliding)
+        object.__setattr__(self, "sliding", sliding)
+
+    def sliding_row(self, basis: ModalBasis) -> FloatArray | None:
+        """Return the motion along the obstacle, (N,); None without friction.
+
+        Raises
+        ------
+        InputError
+            If no mode moves the node along the obstacle, or in more than one direction and
+            none is given.
+        """
+        if self.friction is None:
+            return None
+        from bumpstop.laws.friction import sliding_row
+
+        return sliding_row(basis, self.coordinate, self.sliding)
 
     def check_start(self, basis: ModalBasis, displacement: FloatArray) -> None:
         """Refuse a start, at modal displacements (N,), inside the stop.
@@ -113,4 +160,11 @@ class RigidStop(Contact):
         """Return the stop as the core sees it; see `row`."""
         from bumpstop import _core
 
-        return _core.RigidStop(self.row(basis), self.gap, self.restitution, self.resolution)
+        return _core.RigidStop(
+            self.row(basis),
+            self.gap,
+            self.restitution,
+            self.resolution,
+            self.sliding_row(basis),
+            self.friction or 0.0,
+        )

@@ -62,6 +62,11 @@ class ShapedStop(ABC):
         """Whether it follows a rate equation: that of the stretch of its friction."""
         return self.friction is not None
 
+    @property
+    def internal_variables(self) -> tuple[str, ...]:
+        """What it remembers: the stretch of what rubs, with friction."""
+        return () if self.friction is None else ("stretch_around", "stretch_axial")
+
     @cached_property
     @abstractmethod
     def axes(self) -> FloatArray:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from bumpstop.arguments import FloatArray, Vector, not_negative, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.laws.contact import Contact
-from bumpstop.laws.coordinate import Coordinate, Terms, unit
+from bumpstop.laws.coordinate import Terms
 
 if TYPE_CHECKING:
     from bumpstop import _core
@@ -120,6 +120,11 @@ class Stop(Contact):
         """The functions of time whose sum moves the obstacle."""
         return self.motion  # type: ignore[return-value]  # a tuple once it has been checked
 
+    @property
+    def internal_variables(self) -> tuple[str, ...]:
+        """What it remembers: where its slider stands, with friction."""
+        return () if self.friction is None else ("anchor",)
+
     def sliding_row(self, basis: ModalBasis) -> FloatArray | None:
         """Return the motion along the obstacle, (N,); None without friction.
 
@@ -163,7 +168,7 @@ class Stop(Contact):
         if self.friction is None:
             self._refuse_without_friction()
             return
-        from bumpstop.laws.friction import Friction, tangent
+        from bumpstop.laws.friction import Friction, checked_sliding
 
         object.__setattr__(self, "friction", Friction.of(self.friction))
         if self.tangential_stiffness is None:
@@ -171,13 +176,8 @@ class Stop(Contact):
             raise InputError("friction needs it", key="tangential_stiffness", hint=hint)
         stiffness = positive("tangential_stiffness", self.tangential_stiffness)
         object.__setattr__(self, "tangential_stiffness", stiffness)
-        if isinstance(self.sliding, Mapping):
-            checked = Coordinate.of(None, "sliding", None, terms=self.sliding).terms
-            object.__setattr__(self, "sliding", checked)
-        elif self.sliding is not None:
-            sliding = unit("sliding", self.sliding)
-            tangent(self.coordinate.direction, sliding)
-            object.__setattr__(self, "sliding", sliding)
+        sliding = checked_sliding(self.coordinate, self.sliding)
+        object.__setattr__(self, "sliding", sliding)
 
     def _refuse_without_friction(self) -> None:
         given = {

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["UserLaw", "checked_directions", "rows_along"]
 
 MOST_DIRECTIONS = 3
+STEP = 1e-6
+"""Of the displacement, or of a metre at none: half the step of a difference."""
 
 
 @dataclass(frozen=True)
@@ -107,6 +109,33 @@ class UserLaw(Connection):
         object.__setattr__(self, "memory", finite("memory", self.memory))
         further = checked_directions(self, self.further_directions, MOST_DIRECTIONS)
         object.__setattr__(self, "further_directions", further)
+
+    @property
+    def internal_variables(self) -> tuple[str, ...]:
+        """What it remembers: a memory, where that has a rate."""
+        return () if self.memory_rate is None else ("memory",)
+
+    @property
+    def static_stiffness(self) -> float:
+        """Its stiffness in N/m about no displacement, a scale of what it resists with."""
+        return abs(self.static_force(0.0)[1])
+
+    def static_force(self, place: float) -> tuple[float, float]:
+        """Return the force in N on the structure, ``place`` m along, at rest, and its slope.
+
+        Raises
+        ------
+        InputError
+            If it acts along several directions, or has a variable of its own.
+        """
+        if self.further_directions or self.memory_rate is not None:
+            what = "has no force at rest that could be balanced"
+            hint = "laws of one direction without a variable of their own have"
+            raise InputError(what, key="laws", value=self.name, hint=hint)
+        step = STEP * (abs(place) or 1.0)
+        places = (place - step, place, place + step)
+        before, here, after = (float(np.ravel(self.force(x, 0.0, 0.0))[0]) for x in places)
+        return here, (after - before) / (2.0 * step)
 
     def core(self, basis: ModalBasis) -> _core.UserLaw:
         """Return the law as the core sees it; see `row`."""

@@ -76,6 +76,7 @@ class ZenerDamper(Connection):
     kind: ClassVar[str] = "damper"
     smooth: ClassVar[str] = "its dashpot follows a rate equation"
     flows: ClassVar[bool] = True
+    internal_variables: ClassVar[tuple[str, ...]] = ("dashpot_elongation",)
     """Why it is not piecewise linear."""
 
     _: KW_ONLY

@@ -14,6 +14,7 @@ from bumpstop.loads.time import TimeFunction
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["FRAMES", "BaseMotion"]
@@ -100,3 +101,7 @@ class BaseMotion(SingleLoad, MovingSupports):
     def nodal_force(self, model: LinearModel) -> FloatArray:
         """Return the inertia force on each dof (dofs,) where the function of time is one."""
         return -(model.mass @ self.field(model))
+
+    def inside(self, cut: Cut) -> FloatArray:
+        """Return what the inertia of an element does inside it, (r, 1)."""
+        return -cut.of_inertia(self.field(cut.model).reshape(-1, 1))

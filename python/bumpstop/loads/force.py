@@ -16,6 +16,7 @@ from bumpstop.structure.dofs import DOFS
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["NodalForce"]
@@ -94,3 +95,8 @@ class NodalForce(SingleLoad):
                 form = model.displacement_form(self.node, dof)
                 np.add.at(total, form.dofs, component * form.weights)
         return total
+
+    def inside(self, cut: Cut) -> FloatArray:
+        """Return what it does inside an element, where it acts on a point of it, (r, 1)."""
+        weights = dict(zip(DOFS, (*self.force, *self.moment), strict=True))
+        return cut.of_point(self.node, weights)[:, np.newaxis]

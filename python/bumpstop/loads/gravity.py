@@ -12,6 +12,7 @@ from bumpstop.loads.load import SingleLoad
 if TYPE_CHECKING:
     from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["Gravity"]
@@ -65,3 +66,7 @@ class Gravity(SingleLoad):
     def nodal_force(self, model: LinearModel) -> FloatArray:
         """Return the weight on each dof of a model, (dofs,)."""
         return model.mass @ model.rigid_field(translation=self.acceleration)
+
+    def inside(self, cut: Cut) -> FloatArray:
+        """Return what the weight of an element does inside it, (r, 1)."""
+        return cut.of_inertia(cut.model.rigid_field(translation=self.acceleration).reshape(-1, 1))

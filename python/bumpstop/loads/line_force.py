@@ -11,7 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, Vector, name, not_negative, one_of, positive, vector
 from bumpstop.errors import InputError
-from bumpstop.loads.along_beam import beam_nodes, model_of
+from bumpstop.loads.along_beam import beam_length, beam_nodes, model_of
 from bumpstop.loads.load import SingleLoad
 from bumpstop.loads.time import TimeFunction, time_functions
 from bumpstop.projection import TRANSLATIONS
@@ -19,6 +19,7 @@ from bumpstop.structure.model import BeamModel
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["LineForce", "points_along"]
@@ -125,12 +126,7 @@ class LineForce(SingleLoad):
             If the model has no such beam, or the load is not on it.
         """
         places, weights, parts = points_along(model, self.beam, self.start, self.end)
-        first = np.array(self.force)
-        last = first if self.end_force is None else np.array(self.end_force)
-        if self.axes == "local":
-            assert isinstance(model, BeamModel)  # `points_along` has made sure
-            axes = model.beam_axes(self.beam)
-            first, last = first @ axes, last @ axes
+        first, last = self._ends(model)
         total = np.zeros(len(model.dofs))
         for axis, dof in enumerate(TRANSLATIONS):
             if first[axis] == 0.0 == last[axis]:
@@ -140,6 +136,29 @@ class LineForce(SingleLoad):
                 form = model.displacement_form(place, dof)
                 np.add.at(total, form.dofs, size * form.weights)
         return total
+
+    def inside(self, cut: Cut) -> FloatArray:
+        """Return what it does inside an element, (r, 1)."""
+        if self.beam != cut.beam:
+            return super().inside(cut)
+        last = beam_length(cut.model, self.beam) if self.end is None else self.end
+        first, second = self._ends(cut.model)
+
+        def density(place: float) -> FloatArray:
+            part = (place - self.start) / (last - self.start)
+            return np.concatenate([first + part * (second - first), np.zeros(3)])[:, np.newaxis]
+
+        return cut.of_density(density, self.start, last)
+
+    def _ends(self, model: LinearModel) -> tuple[FloatArray, FloatArray]:
+        """Return its components at both ends, along the global axes."""
+        first = np.array(self.force)
+        last = first if self.end_force is None else np.array(self.end_force)
+        if self.axes == "local":
+            assert isinstance(model, BeamModel)  # `points_along` has made sure
+            axes = model.beam_axes(self.beam)
+            first, last = first @ axes, last @ axes
+        return first, last
 
 
 def points_along(

@@ -12,6 +12,7 @@ from bumpstop.arguments import FloatArray
 if TYPE_CHECKING:
     from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["ForceComponent", "SingleLoad"]
@@ -49,3 +50,10 @@ class SingleLoad(ABC):
     def components(self, basis: ModalBasis) -> tuple[ForceComponent, ...]:
         """Return the force on each mode with its functions of time."""
         return (ForceComponent(self.modal_force(basis), self.functions),)
+
+    def inside(self, cut: Cut) -> FloatArray:
+        """Return what it does at a place inside an element whose ends are held, (r, 1).
+
+        What acts on nodes does nothing there.
+        """
+        return np.zeros((len(cut.kernel(cut.at)), 1))

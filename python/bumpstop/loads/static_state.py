@@ -73,7 +73,7 @@ class _Load(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class StaticState:
-    """Equilibrium at rest under loads, with the stops and springs that take part.
+    """Equilibrium at rest under loads, with the laws that take part.
 
     A beam that is pushed onto its stop and let go at t = 0 starts in the equilibrium under the
     push, which is then no load of the problem. Stops with friction hold nothing along their
@@ -85,7 +85,9 @@ class StaticState:
     loads
         The loads, as they are at t = 0.
     laws
-        The stops and springs.
+        The laws that take part: stops, springs, devices, relations, functions of a user; plastic
+        springs and stops that buckle as after one steady pull, dampers with what they push at no
+        speed.
 
     Raises
     ------
@@ -116,7 +118,7 @@ class StaticState:
             if not isinstance(law, _StaticLaw | _StaticShape):
                 what = "has no force at rest that could be balanced"
                 value = getattr(law, "name", law)
-                hint = "plain stops and springs have"
+                hint = "stops, springs, devices, relations, dampers and functions of a user have"
                 raise InputError(what, key="laws", value=value, hint=hint)
         object.__setattr__(self, "laws", tuple(self.laws))
 
@@ -171,7 +173,9 @@ def _held(basis: ModalBasis, law: object) -> _Held:
     if isinstance(law, _StaticLaw):
         told = law.static_force
         rows = law.row(basis)[np.newaxis]
-        far = max(abs(told(x)[1]) for x in (-1e9, 1e9))
+        # Formulas may grow without limit: these tell a scale of their own.
+        scale = getattr(law, "static_stiffness", None)
+        far = max(abs(told(x)[1]) for x in (-1e9, 1e9)) if scale is None else scale
 
         def along(place: FloatArray) -> tuple[FloatArray, FloatArray]:
             push, change = told(float(place[0]))

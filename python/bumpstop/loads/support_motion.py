@@ -19,6 +19,7 @@ from bumpstop.structure.names import names
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["SupportMotion"]
@@ -124,6 +125,15 @@ class SupportMotion(MovingSupports):
             for number, (force, functions) in enumerate(rates)
             if number == 0 or force.any()
         )
+
+    def inside(self, cut: Cut) -> FloatArray:
+        """Return what inertia does inside an element that is carried along, (r, 3).
+
+        Columns are by displacement, velocity and acceleration of the supports.
+        """
+        field = self.field(cut.model)[:, np.newaxis]
+        by_speed, by_rate = -cut.of_gyration(field), -cut.of_inertia(field)
+        return np.hstack([0.0 * by_rate, by_speed, by_rate])
 
     def _moved(self, model: LinearModel) -> FloatArray:
         """Return the motion of the supports themselves, (dofs,)."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +20,7 @@ from bumpstop.loads.random_signal import RandomSignal
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["Turbulence", "cell_correlation"]
@@ -122,17 +124,31 @@ class Turbulence:
         return self._known[id(model)][1]
 
     def _placed(self, model: LinearModel) -> FloatArray:
-        edges = self._edges(model)
-        cells = len(edges) - 1
-        unit = [
-            LineForce(
-                self.name, beam=self.beam, force=self.direction, start=left, end=right
-            ).nodal_force(model)
-            for left, right in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True)
-        ]
-        joint = cell_correlation(cells, float(edges[1] - edges[0]), self.correlation_length)
-        forces: FloatArray = np.stack(unit, axis=1) @ np.linalg.cholesky(joint)
+        unit = [load.nodal_force(model) for load in self._cells(model)]
+        forces: FloatArray = np.stack(unit, axis=1) @ self._mixing(model)
         return forces
+
+    def _cells(self, model: LinearModel) -> list[LineForce]:
+        """Return a unit force along each cell."""
+        edges = self._edges(model).tolist()
+        return [
+            LineForce(self.name, beam=self.beam, force=self.direction, start=left, end=right)
+            for left, right in pairwise(edges)
+        ]
+
+    def _mixing(self, model: LinearModel) -> FloatArray:
+        """Return the forces of the cells by the independent signals, (cells, cells)."""
+        edges = self._edges(model)
+        joint = cell_correlation(
+            len(edges) - 1, float(edges[1] - edges[0]), self.correlation_length
+        )
+        return np.asarray(np.linalg.cholesky(joint), dtype=np.float64)
+
+    def inside(self, cut: Cut) -> FloatArray:
+        """Return what it does inside an element for each independent signal, (r, cells)."""
+        unit = [load.inside(cut) for load in self._cells(cut.model)]
+        forces = np.hstack(unit) @ self._mixing(cut.model)
+        return np.asarray(forces, dtype=np.float64)
 
     def components(self, basis: ModalBasis) -> tuple[ForceComponent, ...]:
         """Return the force on each mode of each independent signal.

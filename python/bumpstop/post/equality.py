@@ -51,6 +51,9 @@ def _columns(response: Response) -> Iterator[NDArray[np.generic]]:
     for number, law in enumerate(response.problem.laws):
         yield from response.history.law_motion(number, response.times)
         yield response.history.contact_forces(number, response.times)
+        yield response.history.law_forces(number, response.times)
+        if getattr(law, "internal_variables", ()):
+            yield response.history.internal_variables(number, response.times)
         yield response.sample("state", law.name)
     found = ledger(response, response.times)
     yield from found.terms.values()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,13 +12,15 @@ import numpy as np
 from bumpstop.arguments import FloatArray
 from bumpstop.canonical import velocity_matrix
 from bumpstop.errors import InputError
+from bumpstop.laws.coordinate import coordinates_of
 from bumpstop.loads.support_motion import SupportMotion
 
 if TYPE_CHECKING:
+    from bumpstop.laws.coordinate import Coordinate
     from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
-    from bumpstop.problem import Law
     from bumpstop.response import Response
+    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["ForceField", "Forces"]
@@ -33,6 +35,8 @@ class ForceField(NamedTuple):
     """In N and N m where the functions are one, (dofs, m)."""
     sizes: Callable[[FloatArray], FloatArray]
     """The functions, (time, m), at some times in s."""
+    inside: Callable[[Cut], FloatArray] | None = None
+    """What the fields do at a place inside an element whose ends are held, (r, m)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,15 +78,35 @@ class Forces:
         """Return the inertia forces -M u'' at some times, (dofs, time)."""
         return -(self._mass_shapes @ self.response.motion(2, times).T)
 
+    def inside(self, cut: Cut, times: FloatArray) -> FloatArray:
+        """Return what all forces do at a place inside an element whose ends are held, (r, time).
+
+        Inertia forces and modal damping are spread as masses are.
+        """
+        spread = -self.response.motion(2, times).T
+        spread -= self._given_damping @ self.response.motion(1, times).T
+        total = cut.of_inertia(self.basis.shapes) @ spread
+        for each in self.local:
+            if each.inside is None:
+                continue
+            parts = each.inside(cut)
+            if parts.any():
+                total += parts @ each.sizes(times).T
+        return total
+
     def modal_damping(self, times: FloatArray) -> FloatArray:
         """Return the forces of the damping that modes were given by ratios, (dofs, time).
 
         It has no place of its own and is spread over the structure as the modes' masses are.
         """
+        return -(self._mass_shapes @ (self._given_damping @ self.response.motion(1, times).T))
+
+    @cached_property
+    def _given_damping(self) -> FloatArray:
+        """What of the velocities' matrix no part of the structure has, (N, N)."""
         model, shapes = self.model, self.basis.shapes
         placed = shapes.T @ (model.damping @ shapes) + shapes.T @ (model.gyroscopic @ shapes)
-        given = velocity_matrix(self.basis) - placed
-        return -(self._mass_shapes @ (given @ self.response.motion(1, times).T))
+        return velocity_matrix(self.basis) - placed
 
     @cached_property
     def untaken(self) -> tuple[ForceField, ...]:
@@ -115,7 +139,8 @@ class Forces:
                 what = "says nothing of its forces on the nodes"
                 raise InputError(what, key=f"loads.{load.name}")
             functions = [each for _, each in components]
-            yield ForceField("load", fields(self.model), _sums(functions, duration))
+            inside = getattr(load, "inside", None)
+            yield ForceField("load", fields(self.model), _sums(functions, duration), inside)
 
     def _support_forces(self, load: SupportMotion) -> ForceField:
         """Return the forces on what moves against supports that carry it along, by its inertia."""
@@ -130,7 +155,7 @@ class Forces:
         def sizes(times: FloatArray) -> FloatArray:
             return np.stack([travel.at(times, order) for order in range(3)], axis=1)
 
-        return ForceField("load", np.stack(rates, axis=1), sizes)
+        return ForceField("load", np.stack(rates, axis=1), sizes, load.inside)
 
     def carried(self, times: FloatArray) -> FloatArray:
         """Return the displacements by which supports that move differently carry all dofs along.
@@ -147,21 +172,9 @@ class Forces:
 
     def _laws(self) -> Iterator[ForceField]:
         for number, law in enumerate(self.response.problem.laws):
-            fields = np.stack(list(self._along(law)), axis=1)
-            yield ForceField("law", fields, self._law_forces(number))
-
-    def _along(self, law: Law) -> Iterator[FloatArray]:
-        """Yield unit forces along the coordinates of a law, in the order of the core's."""
-        several = getattr(law, "coordinates", None)
-        if several is not None:
-            yield from (each.nodal_force(self.model) for each in several)
-            return
-        yield law.coordinate.nodal_force(self.model)
-        if getattr(law, "friction", None) is not None:
-            from bumpstop.laws.friction import sliding_coordinate
-
-            sliding = getattr(law, "sliding", None)
-            yield sliding_coordinate(self.basis, law.coordinate, sliding).nodal_force(self.model)
+            along = coordinates_of(law, self.basis)
+            fields = np.stack([each.nodal_force(self.model) for each in along], axis=1)
+            yield ForceField("law", fields, self._law_forces(number), partial(_inside, along))
 
     def _law_forces(self, number: int) -> Callable[[FloatArray], FloatArray]:
         return lambda times: self.response.history.law_forces(number, times)
@@ -170,10 +183,23 @@ class Forces:
         model, shapes = self.model, self.basis.shapes
         moved = -(model.damping @ shapes) - (model.gyroscopic @ shapes)
         if moved.any():
-            yield ForceField("damping", moved, lambda times: self.response.motion(1, times))
+            # Dampers are at nodes, gyroscopic moments along beams.
+            spread = partial(_gyration, shapes) if model.gyroscopic.values.any() else None
+            speeds = partial(self.response.motion, 1)
+            yield ForceField("damping", moved, speeds, spread)
         turned = -(model.circulatory @ shapes)
         if turned.any():
             yield ForceField("damping", turned, lambda times: self.response.motion(0, times))
+
+
+def _inside(along: Sequence[Coordinate], cut: Cut) -> FloatArray:
+    """Return what unit forces along some coordinates do inside an element, (r, m)."""
+    return np.stack([each.inside(cut) for each in along], axis=1)
+
+
+def _gyration(shapes: FloatArray, cut: Cut) -> FloatArray:
+    """Return what gyroscopic moments do inside an element by the speeds of the modes, (r, N)."""
+    return -cut.of_gyration(shapes)
 
 
 def _sums(

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,15 +23,19 @@ from bumpstop.modal.unit_motion import unit_motion
 from bumpstop.post.forces import ForceField, Forces
 from bumpstop.projection import along
 from bumpstop.quantities import dof_units
+from bumpstop.structure.cut import Cut
 from bumpstop.structure.dofs import DOFS
+from bumpstop.structure.elements.varying import flexibility
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.model import SectionModel
+from bumpstop.structure.points import beam_point
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import ArrayLike
 
     from bumpstop.response import Response
+    from bumpstop.structure.beam_element import BeamElement
     from bumpstop.structure.forms import LinearForm
 
 __all__ = ["Recovery", "recovery"]
@@ -111,7 +115,7 @@ class Recovery:
         return over_time(
             "displacement",
             self.response.times,
-            self.read(form),
+            self.read(form) + self._inside_of(node, dof),
             units=dof_units("displacement", dof),
             long_name=f"displacement of {node} along {dof}",
             node=node,
@@ -127,7 +131,7 @@ class Recovery:
             If there is no such beam, place or fibre.
         """
         gauge = Gauge("fibre", beam=beam, at=at, fibre=fibre)
-        values = self.read(self._sections.strain_form(gauge))
+        values = self.read(self._sections.strain_form(gauge)) + self._strain_inside(gauge)
         return over_time("gauge", self.response.times, values, beam=beam)
 
     def stress(self, beam: str, at: float, fibre: tuple[float, float]) -> xr.DataArray:
@@ -144,8 +148,10 @@ class Recovery:
 
         gauge = Gauge("fibre", beam=beam, at=at, fibre=fibre)
         y, z = gauge.fibre
+        form = self._sections.stress_form(gauge)
+        young = self._sections.beam_element(gauge.beam, gauge.at).slice_at(0.0).young
         return xr.DataArray(
-            self.read(self._sections.stress_form(gauge)),
+            self.read(form) + young * self._strain_inside(gauge),
             coords={"time": time_coordinate(self.response.times)},
             name="stress",
             attrs={
@@ -158,9 +164,10 @@ class Recovery:
         """Return the forces in sections of a beam: N, Vy, Vz, T, My, Mz.
 
         They are those of the part beyond the section on the part before it, along and about the
-        beam's local axes: stiffness of the element times displacements of its nodes, so that
-        normal force, shear and torque are even along an element and moments change linearly.
-        Between elements they jump by the inertia and the loads that their nodes take.
+        beam's local axes: stiffness of the element times displacements of its nodes and, with
+        static correction, what loads, inertia and laws do between the nodes, on an element whose
+        ends are held. Without it, normal force, shear and torque are even along an element and
+        moments change linearly; they then jump between elements by what their nodes take.
 
         Parameters
         ----------
@@ -184,9 +191,11 @@ class Recovery:
         one = np.ndim(at) == 0
         places = [finite("at", place) for place in np.atleast_1d(np.asarray(at)).tolist()]
         forms = [self._sections.section_forms(beam, place) for place in places]
+        inside = np.stack([self._forces_inside(beam, place) for place in places])
         found = {}
         for number, (name, (units, words)) in enumerate(SECTION_FORCES.items()):
             values = np.stack([self.read(each[number]) for each in forms], axis=1)
+            values += inside[:, number].T
             attributes = {"units": units, "long_name": f"{words} in {beam}"}
             dims, kept = (("time",), values[:, 0]) if one else (("time", "at"), values)
             found[name] = (dims, kept, attributes)
@@ -296,6 +305,50 @@ class Recovery:
         for each, shapes in self._corrections:
             values = values + along(form.of(shapes), each.sizes(times))
         return values
+
+    def _forces_inside(self, beam: str, at: float) -> FloatArray:
+        """Return what acts between the nodes adds to the forces in a section, (6, time)."""
+        element = self._sections.beam_element(beam, at)
+        return self._inside(beam, at, element, partial(element.forces, at))
+
+    def _strain_inside(self, gauge: Gauge) -> FloatArray:
+        """Return what acts between the nodes adds to the strain of a fibre, (time,)."""
+        element = self._sections.beam_element(gauge.beam, gauge.at)
+        part = element.slice_at((gauge.at - element.start) / element.length)
+        y, z = gauge.fibre
+        strain = flexibility(part) * [1.0, 0.0, 0.0, 0.0, z, -y]
+        if not element.bends:
+            strain[1:] = 0.0
+
+        def kernel(place: float) -> FloatArray:
+            return np.asarray((strain @ element.forces(gauge.at, place))[np.newaxis])
+
+        (added,) = self._inside(gauge.beam, gauge.at, element, kernel)
+        return np.asarray(added)
+
+    def _inside_of(self, node: str, dof: str) -> FloatArray:
+        """Return what acts between nodes adds to the displacement of a point, (time,)."""
+        point = beam_point(node)
+        model = self.forces.model
+        if point is None or not isinstance(model, SectionModel):
+            return np.zeros(len(self.response.times))
+        element = model.beam_element(*point)
+        row = DOFS.index(dof)
+
+        def kernel(place: float) -> FloatArray:
+            return element.displacements(point[1], place)[row : row + 1]
+
+        (added,) = self._inside(*point, element, kernel)
+        return np.asarray(added)
+
+    def _inside(
+        self, beam: str, at: float, element: BeamElement, kernel: Callable[[float], FloatArray]
+    ) -> FloatArray:
+        """Return what acts between the nodes of an element adds to a reading, (r, time)."""
+        cut = Cut(self.forces.model, beam, at, element, kernel)
+        if not self.static_correction:
+            return np.zeros((len(kernel(at)), len(self.response.times)))
+        return self.forces.inside(cut, self.response.times)
 
     def _refuse_parts(self) -> None:
         """Raise for substructures: forces that their dofs lack are those of joints as well."""

@@ -12,9 +12,9 @@ from bumpstop.lazy import lazy_names
 
 if TYPE_CHECKING:
     from bumpstop.report.figures import as_plotly
-    from bumpstop.report.html import write_comparison, write_modes, write_report
+    from bumpstop.report.html import write_comparison, write_modes, write_report, write_study
 
-__all__ = ["as_plotly", "write_comparison", "write_modes", "write_report"]
+__all__ = ["as_plotly", "write_comparison", "write_modes", "write_report", "write_study"]
 
 __getattr__ = lazy_names(
     __name__,
@@ -23,5 +23,6 @@ __getattr__ = lazy_names(
         "write_comparison": "html",
         "write_modes": "html",
         "write_report": "html",
+        "write_study": "html",
     },
 )

@@ -7,10 +7,12 @@ into a figure for a notebook. Colours are those of light paper (see `palette`).
 
 from __future__ import annotations
 
+from html import escape
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from bumpstop.laws.shaped_stop import ShapedStop
 from bumpstop.report.balance import ledger_instants, residual_told
 from bumpstop.report.curves import MOST_POINTS, contact_spans, instants, state_spans, thin
 from bumpstop.report.palette import LIGHT
@@ -51,6 +53,9 @@ __all__ = [
 
 Figure: TypeAlias = dict[str, Any]
 
+HEADED = 104
+"""Margin in pixels above a figure that has a heading, a line below it, and a legend."""
+
 LARGEST_RING = 6
 """Size of a ring in pixels: plotly would tell of the curve through the middle of a larger one."""
 
@@ -74,7 +79,11 @@ def as_plotly(figure: Figure) -> go.Figure:
     """
     import plotly.graph_objects as go
 
-    return go.Figure(figure)
+    drawn = go.Figure(figure)
+    if "subtitle" in figure["layout"].get("title", {}) and drawn.layout.showlegend is not False:
+        # Heading and legend stand one above the other.
+        drawn.update_layout(margin_t=HEADED, title={"y": 0.97, "yanchor": "top"})
+    return drawn
 
 
 def node_motion(
@@ -102,25 +111,75 @@ def node_motion(
 
 
 def stop_force(response: Response, stop: str, references: Sequence[Reference] = ()) -> Figure:
-    """Draw the force with which a stop pushes the structure over time."""
+    """Draw the force of a stop, or of another law, on the structure over time."""
     figure = _over_time(response, ("stop_force", stop), "Force", references)
+    kind = _kind(response, stop)
     figure["data"][0]["line"]["color"] = LIGHT["contact"]
+    if kind != "stop":
+        return _entitled(figure, f"Force of {kind} {stop}")
+    # A stop pushes and never pulls.
     figure["data"][0] |= {"fill": "tozeroy", "fillcolor": "rgba(213, 94, 0, 0.12)"}
     figure["layout"]["yaxis"]["rangemode"] = "nonnegative"
     return figure
 
 
 def friction_force(response: Response, stop: str, references: Sequence[Reference] = ()) -> Figure:
-    """Draw the force of a stop along its obstacle over time, shaded while it sticks."""
+    """Draw the force of a stop along its obstacle over time, shaded while it sticks.
+
+    Where it rubs in two directions both are drawn: around an axis, and along it.
+    """
     figure = _over_time(response, ("friction_force", stop), "Force", references)
-    clock = scale_for("s", instants(response))
+    law = response.problem.laws[response.law_index(stop)]
+    if isinstance(law, ShapedStop):
+        return _in_two_directions(figure, response, law)
+    clock = scale_for("s", response.problem.duration)
     figure["layout"]["shapes"] = bands(state_spans(response, stop, "stick"), clock)
     return figure
 
 
 def gap(response: Response, stop: str, references: Sequence[Reference] = ()) -> Figure:
-    """Draw the distance between the structure and a stop over time, negative while pressed."""
-    return _over_time(response, ("gap", stop), "Gap", references)
+    """Draw the distance between the structure and a stop over time, negative while pressed.
+
+    Of another law it is the deformation.
+    """
+    kind = _kind(response, stop)
+    name = "Gap" if kind == "stop" else "Deformation"
+    figure = _over_time(response, ("gap", stop), name, references)
+    return figure if kind == "stop" else _entitled(figure, f"Deformation of {kind} {stop}")
+
+
+def _kind(response: Response, name: str) -> str:
+    """Return what a law is called in words."""
+    law = response.problem.laws[response.law_index(name)]
+    return str(getattr(law, "kind", "stop"))
+
+
+def _entitled(figure: Figure, title: str) -> Figure:
+    figure["layout"]["title"]["text"] = escape(title, quote=False)
+    return figure
+
+
+def _in_two_directions(figure: Figure, response: Response, law: ShapedStop) -> Figure:
+    """Return the same with the forces in both directions in which a stop rubs."""
+    times = instants(response)
+    forces = response.history.contact_forces(response.law_index(law.name), times)[:, 1:]
+    clock, force = scale_for("s", response.problem.duration), scale_for("N", forces)
+    figure["layout"]["yaxis"] = Axis("Force", force).layout()
+    known = ("around the axis", "along the axis")
+    if law.obstacle == "plane":
+        known = ("first direction", "second direction")
+    computed, *published = figure["data"]
+    drawn = []
+    for name, role, values in zip(known, ("computed", "damping"), forces.T, strict=True):
+        kept = thin(values)
+        points = {"x": times[kept] * clock.factor, "y": values[kept] * force.factor}
+        told = f"{name}: %{{y:.5~g}} {force.unit}<br>at %{{x:.5~g}} {clock.unit}<extra></extra>"
+        line = computed["line"] | {"color": LIGHT[role]}
+        drawn.append(computed | points | {"name": name, "line": line, "hovertemplate": told})
+    layout = figure["layout"] | {"showlegend": True}
+    largest = force.show(float(np.hypot(*forces.T).max()))
+    layout["title"]["subtitle"]["text"] = f"At most {largest} {force.unit}"
+    return {"data": [*drawn, *published], "layout": layout}
 
 
 def gauge_strain(response: Response, gauge: str, references: Sequence[Reference] = ()) -> Figure:

@@ -17,14 +17,16 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Mapping, Sequence
 
+    import xarray as xr
     from jinja2 import Environment
 
     from bumpstop.io.case import Case
     from bumpstop.post.references import Check
     from bumpstop.response import Response
     from bumpstop.study.convergence import Convergence
+    from bumpstop.study.study import Study
 
-__all__ = ["write_comparison", "write_modes", "write_report"]
+__all__ = ["write_comparison", "write_modes", "write_report", "write_study"]
 
 TEMPLATES = Path(__file__).parent / "templates"
 SCRIPTS = (
@@ -35,9 +37,12 @@ SCRIPTS = (
     "tabs",
     "svg",
     "stage",
-    "motion",
     "turntable",
+    "laws",
+    "orbits",
+    "motion",
     "modes",
+    "runs",
     "main",
 )
 PLOTLY_MARK = "<!--plotly.js-->"
@@ -104,6 +109,41 @@ def write_comparison(responses: Mapping[str, Response], path: str | os.PathLike[
     from bumpstop.report.comparison import comparison_content
 
     _write_with_plots(_page("compare.html.j2", *comparison_content(responses)), path)
+
+
+def write_study(
+    study: Study,
+    results: xr.Dataset,
+    path: str | os.PathLike[str],
+    *,
+    title: str | None = None,
+    opened_by: str,
+) -> None:
+    """Write the page of a study to one HTML file.
+
+    Parameters
+    ----------
+    study
+        What was run.
+    results
+        What came out, as `Study.run` gives it.
+    path
+        File to write. A file of that name is replaced once the new one is complete.
+    title
+        What stands above it; the title of the case where left out.
+    opened_by
+        The command that opens a run, up to its number; the page offers it for every point.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written there.
+    """
+    from bumpstop.report.studies.page import study_content
+
+    content, data = study_content(study, results, opened_by)
+    content["title"] = title or study.case.title
+    _write_with_plots(_page("study.html.j2", content, data), path)
 
 
 def _write_with_plots(page: str, path: str | os.PathLike[str]) -> None:

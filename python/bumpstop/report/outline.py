@@ -46,6 +46,8 @@ class Outline:
         Which point a named node is.
     schematic
         True where the basis knows no geometry and the nodes are placed side by side.
+    places
+        Name of each point: a node's, or that of a point along a beam.
     """
 
     positions: FloatArray
@@ -53,6 +55,7 @@ class Outline:
     lines: list[tuple[int, int]]
     nodes: dict[str, int]
     schematic: bool
+    places: list[str]
 
     @property
     def spatial(self) -> bool:
@@ -132,7 +135,8 @@ def _side_by_side(basis: ModalBasis) -> Outline:
     along = int(np.argmin(motion))
     positions = np.zeros((len(names), 3))
     positions[:, along] = np.arange(len(names)) * 3.0 * max(float(motion.max()), 1e-300)
-    return Outline(positions, shapes, [], {name: i for i, name in enumerate(names)}, True)
+    nodes = {name: i for i, name in enumerate(names)}
+    return Outline(positions, shapes, [], nodes, True, names)
 
 
 def _from_model(basis: ModalBasis, model: DrawnModel, extra: Iterable[str]) -> Outline:
@@ -150,7 +154,7 @@ def _from_model(basis: ModalBasis, model: DrawnModel, extra: Iterable[str]) -> O
         places.append(place)
     positions = np.array([model.position(place) for place in places])
     shapes = np.array([_shape(basis, place) for place in places])
-    return Outline(positions, shapes, lines, nodes, False)
+    return Outline(positions, shapes, lines, nodes, False, places)
 
 
 def _pieces(elements: int) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 
 from bumpstop import __version__
 from bumpstop.report import tables
+from bumpstop.report.law_scene import law_nodes
 from bumpstop.report.outline import outline
 from bumpstop.report.palette import DARK, LIGHT
 from bumpstop.report.published import published, verdict
@@ -42,7 +43,7 @@ def page_content(
     notes = tables.variant_notes(problems)
     bases = _shared_bases(
         {name: problem.basis for name, problem in problems.items()},
-        {name: [law.coordinate.node for law in problem.laws] for name, problem in problems.items()},
+        {name: law_nodes(problem) for name, problem in problems.items()},
     )
     drawings = {name: shared.drawing for shared in bases for name in shared.variants}
     variants = {
@@ -85,8 +86,8 @@ def modes_content(
     case, checks
         As `bumpstop.report.write_modes` takes them.
     """
-    laws = {name: problem.laws for name, problem in case.problems.items()}
-    stops = {name: [law.coordinate.node for law in laws.get(name, ())] for name in case.bases}
+    stops = {name: law_nodes(problem) for name, problem in case.problems.items()}
+    stops = {name: stops.get(name, []) for name in case.bases}
     bases = _shared_bases(case.bases, stops)
     checked = [(name, some) for name, some in checks.items() if some]
     content = _head(case, checks) | {

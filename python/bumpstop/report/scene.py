@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bumpstop.report.curves import contact_spans, looked_at
+from bumpstop.laws.around_axis import StopAroundAxis
+from bumpstop.report.carried import carried_motion
+from bumpstop.report.law_scene import drawn_springs, law_scenes
 from bumpstop.report.outline import UNSEEN, view_of
-from bumpstop.report.scales import scale_for, significant, with_unit
-from bumpstop.report.stops import fixed_stops
+from bumpstop.report.playing import frame_times, magnifications, paces
+from bumpstop.report.scales import scale_for
 from bumpstop.report.words import unit_of
 from bumpstop.structure.drawn import DrawnModel
 
@@ -17,7 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bumpstop.arguments import FloatArray
-    from bumpstop.laws.contact import Contact
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
     from bumpstop.report.outline import Outline
@@ -25,18 +27,27 @@ if TYPE_CHECKING:
     from bumpstop.structure.model import LinearModel
     from bumpstop.structure.support import Support
 
-__all__ = ["mode_scene", "motion_scene"]
+__all__ = ["best_view", "mode_scene", "motion_scene"]
 
-MOST_NUMBERS = 120_000
-"""Numbers in all frames of a motion; it keeps the page small."""
+UPRIGHT = 0.1
+"""Part of Z that is up on paper where a scene is turned about it."""
 
 _AXES = ("dx", "dy", "dz")
 _TURN = ("drx", "dry", "drz")
-_NICE = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000, 100_000, 1_000_000]
 
 
-def motion_scene(response: Response, watched: tuple[str, str], drawing: Outline) -> dict[str, Any]:
+def motion_scene(
+    response: Response,
+    watched: tuple[str, str],
+    drawing: Outline,
+    *,
+    view: FloatArray | None = None,
+    most: int | None = None,
+) -> dict[str, Any]:
     """Return what the page plays: the drawing and the motion of one response.
+
+    A structure with places can be turned: points, shapes and directions have a third component,
+    towards the reader, and ``vertical`` is the direction about which it is turned.
 
     Parameters
     ----------
@@ -45,48 +56,69 @@ def motion_scene(response: Response, watched: tuple[str, str], drawing: Outline)
     watched
         Node and dof whose displacement is drawn above the slider and told beside the time.
     drawing
-        Outline of the structure; the nodes of the stops are among its points.
+        Outline of the structure; the nodes of the laws are among its points.
+    view
+        From global axes to those of the scene, (2 or 3, 3); where left out, those from which the
+        motion is seen best.
+    most
+        Frames at most.
     """
     problem = response.problem
-    times = _frame_times(response)
-    modal = response.motion(0, times)
+    times = frame_times(response, most)
+    shapes, amplitudes = carried_motion(problem, drawing, times)
+    if amplitudes.shape[1]:
+        drawing = replace(drawing, shapes=np.concatenate([drawing.shapes, shapes], axis=2))
+    modal = np.hstack([response.motion(0, times), amplitudes])
     travel = np.einsum("pam,fm->fpa", drawing.shapes, modal[:: max(len(modal) // 500, 1)])
     reach = np.abs(travel).max(axis=(0, 1))
-    normals = [np.abs(stop.coordinate.direction) * reach.max() for stop in fixed_stops(problem)]
-    view = view_of(drawing.positions, np.max([reach, *normals], axis=0))
-    furthest = float(np.linalg.norm(travel @ view.T, axis=-1).max())
+    if view is None:
+        view = best_view(drawing, np.max([reach, *_directions(problem, reach)], axis=0))
+    furthest = float(np.linalg.norm(travel, axis=-1).max())
     drawn = _drawing(drawing, problem.basis, view)
-    extent = 0.0 if drawing.schematic else float(np.ptp(drawing.positions @ view.T, axis=0).max())
+    extent = 0.0 if drawing.schematic else float(np.ptp(drawn["points"], axis=0).max())
     displacement = response.sample("displacement", *watched, times=times)
     scale = scale_for(unit_of("displacement", watched[1]), displacement)
     clock = scale_for("s", problem.duration)
-    stops = fixed_stops(problem)
-    forces = [response.sample("stop_force", stop.name, times=times) for stop in stops]
-    force = scale_for("N", forces if forces else 0.0)
+    laws = law_scenes(response, drawing, view, times)
+    force = scale_for("N", [law["forces"] for law in laws] if laws else 0.0)
     return drawn | {
-        "stops": [_stop(stop, drawing, view, response) for stop in stops],
-        "magnifications": _magnifications(extent, furthest),
+        "laws": laws,
+        "springs": drawn_springs(problem.basis, drawing, view),
+        "magnifications": magnifications(extent, furthest),
         "duration": problem.duration,
         "frames": len(times) - 1,
         "timeScale": [clock.factor, clock.unit],
         "modal": modal,
-        "forces": np.array(forces),
-        "contacts": [contact_spans(response, stop.name) for stop in stops],
         "forceScale": [force.factor, force.unit],
         "watched": {
             "point": drawing.nodes.get(watched[0], -1),
             "values": displacement,
             "scale": [scale.factor, scale.unit],
         },
-        "paces": _paces(problem, response),
+        "paces": paces(response),
     }
+
+
+def best_view(drawing: Outline, motion: FloatArray) -> FloatArray:
+    """Return the axes of the scene: those of the paper, and towards the reader if it turns."""
+    view = view_of(drawing.positions, motion)
+    return view if drawing.schematic else np.vstack([view, np.cross(view[0], view[1])])
+
+
+def _directions(problem: Problem, reach: FloatArray) -> list[FloatArray]:
+    """Return the directions along which laws act, as long as the motion reaches."""
+    laws = [law for law in problem.laws if law.coordinate.terms is None]
+    rows = [np.array(law.coordinate.direction) for law in laws]
+    for law in laws:
+        if isinstance(law, StopAroundAxis):
+            rows += list(law.axes[:2])
+    return [np.abs(row) * float(reach.max()) for row in rows]
 
 
 def mode_scene(basis: ModalBasis, drawing: Outline) -> dict[str, Any]:
     """Return what the page needs to draw each mode of a basis; see `motion_scene`.
 
-    A structure in space can be turned: points, shapes and normals have a third component
-    then, towards the reader, and ``vertical`` is the direction of Z in these components.
+    Only a structure in space can be turned.
     """
     reach = np.abs(drawing.shapes).max(axis=(0, 2))
     view = view_of(drawing.positions, reach)
@@ -98,14 +130,15 @@ def mode_scene(basis: ModalBasis, drawing: Outline) -> dict[str, Any]:
     # A mode that the view does not show stays a straight line instead of amplified rounding.
     visible = largest > UNSEEN * max(float(largest.max()), np.finfo(float).tiny)
     drawn["shapes"] = shapes / np.where(visible, largest, np.inf)
-    return drawn | ({"vertical": view[:, 2]} if drawing.spatial else {})
+    return drawn
 
 
 def _drawing(drawing: Outline, basis: ModalBasis, view: FloatArray) -> dict[str, Any]:
     structure = basis.structure
-    masses = structure.masses if structure is not None else ()
-    # Without beams the points are all there is to see, so each is drawn as a body.
-    bodies = list(drawing.nodes) if not drawing.lines else [mass.node for mass in masses]
+    bodies = [mass.node for mass in structure.masses] if structure is not None else []
+    # Without beams and masses the points are all there is to see, so each is drawn as a body.
+    if not drawing.lines and not bodies:
+        bodies = list(drawing.nodes)
     return {
         "points": drawing.positions @ view.T,
         "shapes": np.einsum("va,pam->pvm", view, drawing.shapes),
@@ -113,7 +146,12 @@ def _drawing(drawing: Outline, basis: ModalBasis, view: FloatArray) -> dict[str,
         "nodes": [{"name": name, "point": point} for name, point in drawing.nodes.items()],
         "bodies": [drawing.nodes[node] for node in dict.fromkeys(bodies)],
         "supports": _supports(basis.model, drawing, view),
-    }
+    } | ({"vertical": _upright(view)} if len(view) == 3 else {})
+
+
+def _upright(view: FloatArray) -> FloatArray:
+    """Return the direction about which a scene is turned: Z, or up where Z faces the reader."""
+    return np.asarray(view[:, 2] if abs(view[1, 2]) > UPRIGHT else np.eye(3)[1])
 
 
 def _supports(
@@ -163,67 +201,3 @@ def _away_from(drawing: Outline, view: FloatArray, place: int) -> FloatArray:
             if np.array_equal(end, here) and np.any(along):
                 return np.asarray(along / np.linalg.norm(along))
     return np.asarray(np.eye(len(view))[0])
-
-
-def _stop(law: Contact, drawing: Outline, view: FloatArray, response: Response) -> dict[str, Any]:
-    times = looked_at(response)
-    return {
-        "name": law.name,
-        "label": f"{law.name}, {_give(law)}",
-        "point": drawing.nodes[law.coordinate.node],
-        "normal": view @ np.array(law.coordinate.direction),
-        "gap": law.gap,
-        "deepest": max(0.0, -float(response.sample("gap", law.name, times=times).min())),
-    }
-
-
-def _give(law: Contact) -> str:
-    """Return how far a stop gives way, in words."""
-    stiffness: float | None = getattr(law, "stiffness", None)
-    if stiffness is None:
-        return "rigid"
-    exponent: float | None = getattr(law, "exponent", None)
-    if exponent is None:
-        return with_unit(stiffness, "N/m")
-    return f"{significant(stiffness, 4)} N/m^{exponent:g}"
-
-
-def _frame_times(response: Response) -> FloatArray:
-    """Return instants evenly spread over the run: more of them where there are more impacts."""
-    problem = response.problem
-    numbers = len(problem.basis.omega2) + len(problem.laws) + 2
-    wanted = max(1000, 40 * len(response.impact_table()["start"]))
-    frames = min(wanted, max(MOST_NUMBERS // numbers, 200))
-    return np.linspace(0.0, problem.duration, frames + 1)
-
-
-def _magnifications(extent: float, furthest: float) -> dict[str, Any]:
-    """Return by how much the motion may be magnified, and by how much it is at first."""
-    if extent == 0.0 or furthest == 0.0:
-        return {"choices": [1], "first": 0}
-    choices = [factor for factor in _NICE if factor * furthest <= 0.6 * extent] or [1]
-    fitting = [i for i, factor in enumerate(choices) if factor * furthest <= 0.3 * extent]
-    return {"choices": choices, "first": fitting[-1] if fitting else 0}
-
-
-def _paces(problem: Problem, response: Response) -> dict[str, Any]:
-    """Return how many seconds on the screen one second of the run may take."""
-    impacts = len(response.impact_table()["start"])
-    screen_seconds = min(max(8.0, 0.8 * impacts), 600.0)
-    usual = _nice_pace(screen_seconds / problem.duration)
-    choices = [usual * factor for factor in (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)]
-    return {
-        "choices": [{"slowdown": pace, "label": _pace_label(pace)} for pace in choices],
-        "first": 3,
-    }
-
-
-def _nice_pace(slowdown: float) -> float:
-    power = 10.0 ** np.floor(np.log10(slowdown))
-    return float(power * min((1.0, 2.0, 4.0, 8.0, 10.0), key=lambda n: abs(n - slowdown / power)))
-
-
-def _pace_label(slowdown: float) -> str:
-    if slowdown == 1.0:
-        return "real time"
-    return f"{slowdown:,.6g} × slower" if slowdown > 1.0 else f"{1.0 / slowdown:,.6g} × faster"

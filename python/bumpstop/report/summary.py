@@ -14,6 +14,7 @@ from bumpstop.laws import (
     Friction,
     HardeningSpring,
     HertzStop,
+    OutsideProgram,
     PlaneStop,
     PolarStop,
     RigidStop,
@@ -80,6 +81,16 @@ METHODS = {
         "Dormand-Prince 8",
         "a Runge-Kutta pair of order 8; every switch of contact located",
     ),
+    "exprk43": (
+        "Hochbruck-Ostermann",
+        "an exponential Runge-Kutta pair of order 4, each mode by its own exponential; every "
+        "switch of contact located",
+    ),
+    "adaptive_central_difference": (
+        "Adaptive central difference",
+        "second order, steps by the frequency that the motion shows; every switch of contact "
+        "located",
+    ),
     "symplectic_euler": ("Symplectic Euler", "equal steps, first order"),
     "central_difference": ("Central difference", "equal steps, second order"),
     "newmark": ("Newmark", "equal implicit steps, second order with gamma = 1/2"),
@@ -91,6 +102,7 @@ METHODS = {
         "Exponential",
         "equal steps, exact for the modes, second order for laws and loads",
     ),
+    "moreau_jean": ("Moreau-Jean", "equal implicit steps over the impulses of rigid stops"),
 }
 """Name and nature of each method."""
 
@@ -272,6 +284,8 @@ def _law(law: Law) -> str:
     if isinstance(law, RigidStop):
         gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
         restitution = f"restitution {_plain(law.restitution)}"
+        if law.friction is not None:
+            restitution = f"{restitution}, friction {_plain(law.friction)}"
         return (
             f"{law.name}: a rigid {law.obstacle} {_pushing(law.coordinate)}, {gap}, {restitution}"
         )
@@ -292,7 +306,7 @@ def _law(law: Law) -> str:
         gap = "no gap" if law.gap == 0.0 else f"gap {with_unit(law.gap, 'm')}"
         forces = f"buckles at {with_unit(law.critical_force, 'N')}"
         return f"{law.name}: a {law.obstacle} {_pushing(law.coordinate)}, {gap}, {forces}"
-    if isinstance(law, UserLaw):
+    if isinstance(law, UserLaw | OutsideProgram):
         return f"{law.name}: a {law.kind} of the user's own {_where(law.coordinate)}"
     if isinstance(law, ForceRelation):
         where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"

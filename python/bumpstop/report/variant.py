@@ -10,6 +10,8 @@ import numpy as np
 from bumpstop.laws.around_axis import StopAroundAxis
 from bumpstop.post.results.reading import read_result
 from bumpstop.report import figures, tables
+from bumpstop.report.law_scene import undrawn_laws
+from bumpstop.report.loops import force_loop, friction_loop
 from bumpstop.report.orbit import orbit
 from bumpstop.report.published import published
 from bumpstop.report.scene import motion_scene
@@ -79,7 +81,7 @@ class Variant:
             "published": published(checks),
             "sources": list(dict.fromkeys(check.source for check in checks if check.source)),
             "results": tables.results(self.readings),
-            "impacts": tables.impacts(self.response) if self.response.problem.laws else None,
+            "impacts": tables.impacts(self.response) if self.response.problem.stop_names else None,
         }
 
     def plots(self) -> dict[str, Figure]:
@@ -100,6 +102,10 @@ class Variant:
             if getattr(law, "friction", None) is not None:
                 yield figures.friction_force(response, law.name, references)
             yield figures.gap(response, law.name, references)
+            if len(response.impact_table()["start"]) or law.table != "stops":
+                yield force_loop(response, law.name)
+            if getattr(law, "friction", None) is not None and hasattr(law, "sliding_row"):
+                yield friction_loop(response, law.name)
             if isinstance(law, StopAroundAxis):
                 yield orbit(response, law)
         for gauge in problem.gauges[:MOST_STOPS]:
@@ -116,22 +122,35 @@ class Variant:
     def _motion(self) -> dict[str, Any]:
         """Return what stands around the moving picture."""
         node, dof = self.places[0]
-        stops = bool(self.response.problem.laws)
-        magnifications, paces = self.scene["magnifications"], self.scene["paces"]
+        problem, scene = self.response.problem, self.scene
+        stops = bool(problem.stop_names)
+        magnifications, paces = scene["magnifications"], scene["paces"]
         magnified = len(magnifications["choices"]) > 1
-        scale = "Motion and gaps are magnified alike." if magnified else "Drawn to scale."
-        shade = "; shaded while a stop is closed." if stops else "."
         return {
-            "upright": not self.scene["lines"],
-            "note": f"{scale} The curve is {dof} of {node}{shade}",
+            "upright": not scene["lines"],
+            "note": " ".join(self._motion_notes(magnified, stops)),
             "label": "The structure moving against its stops" if stops else "The structure moving",
+            "turns": "vertical" in scene,
+            "orbits": any("orbit" in law for law in scene["laws"]),
             "watched": f"{dof} of {node}",
+            "has_laws": bool(scene["laws"]),
             "has_stops": stops,
             "magnifications": [f"{factor:,}" for factor in magnifications["choices"]],
             "magnification": magnifications["first"],
             "paces": [pace["label"] for pace in paces["choices"]],
             "pace": paces["first"],
         }
+
+    def _motion_notes(self, magnified: bool, stops: bool) -> Iterator[str]:
+        """Yield what is to be known of the moving picture, a sentence each."""
+        node, dof = self.places[0]
+        yield "Motion and gaps are magnified alike." if magnified else "Drawn to scale."
+        yield f"The curve is {dof} of {node}{'; shaded while a stop is closed.' if stops else '.'}"
+        if "vertical" in self.scene:
+            yield "Drag it, or use the arrow keys on it, to turn it."
+        undrawn = undrawn_laws(self.response.problem)
+        if undrawn:
+            yield f"Not drawn, since no one direction tells it: {', '.join(undrawn)}."
 
 
 def watched_places(problem: Problem, references: Sequence[Reference]) -> list[tuple[str, str]]:

@@ -22,6 +22,7 @@ from bumpstop.structure.sections.section import Section
 from bumpstop.structure.sparse import IndexArray
 
 if TYPE_CHECKING:
+    from bumpstop.structure.beam_element import BeamElement
     from bumpstop.structure.elements.varying import VaryingElement
 
 __all__ = ["MOST_ELEMENTS", "Beam"]
@@ -221,6 +222,31 @@ class Beam:
             forces = section_forces(part, (1.0 - xi) * length) @ at_end
         dofs = self._element_dofs(mesh)[element]
         return tuple(LinearForm(dofs, row) for row in forces @ self._to_local(mesh))
+
+    def element_at(self, mesh: Mesh, at: float) -> BeamElement:
+        """Return the element ``at`` m along, as forces between its nodes see it."""
+        from bumpstop.structure.beam_element import BeamElement
+
+        element, _ = self._locate(mesh, at)
+        length = self._element_length(mesh)
+        varying = self.varying_element(mesh, element) if self.varies else None
+        part = self.slice_at(0.0)
+
+        def interpolation(xi: float) -> FloatArray:
+            if varying is None:
+                return self._element.interpolation(xi, length, part)
+            return varying.interpolation(xi)
+
+        return BeamElement(
+            start=element * length,
+            length=length,
+            axes=self.axes(mesh),
+            slice_at=lru_cache(None)(lambda xi: self.slice_at((element + xi) / self.elements)),
+            interpolation=interpolation,
+            is_lumped=self.mass == "lumped",
+            bends=THEORIES[self.theory].bends,
+            spin=self.spin,
+        )
 
     def position(self, mesh: Mesh, at: float) -> Vector:
         """Return the place ``at`` m along the beam, in m."""

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from bumpstop.arguments import FloatArray, Vector
 from bumpstop.structure.dofs import Dof
 from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
+
+if TYPE_CHECKING:
+    from bumpstop.structure.beam_element import BeamElement
 
 __all__ = [
     "BeamModel",
@@ -131,6 +134,9 @@ class SectionModel(Protocol):
 
     def section_forms(self, beam: str, at: float) -> tuple[LinearForm, ...]:
         """Return N, Vy, Vz, T, My and Mz of a section as forms of all dofs."""
+
+    def beam_element(self, beam: str, at: float) -> BeamElement:
+        """Return the element of a beam that a place is in, with its axes in the model."""
 
     def strain_form(self, gauge: Gauge) -> LinearForm:
         """Return the axial strain of a fibre as a form of all dofs."""

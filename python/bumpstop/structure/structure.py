@@ -28,6 +28,7 @@ from bumpstop.structure.rigid import rigid_fields
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 
 if TYPE_CHECKING:
+    from bumpstop.structure.beam_element import BeamElement
     from bumpstop.structure.bearing import Bearing
     from bumpstop.structure.gauge import Gauge
     from bumpstop.structure.link import RigidLink
@@ -231,6 +232,18 @@ class Structure:
         found = self._beam(beam, "beam")
         found.require_on(self.mesh, at, key="at", value=at)
         return found.section_forms(self.mesh, at)
+
+    def beam_element(self, beam: str, at: float) -> BeamElement:
+        """Return the element of a beam ``at`` m from its first node.
+
+        Raises
+        ------
+        InputError
+            If the beam is unknown, or the place is not on it.
+        """
+        found = self._beam(beam, "beam")
+        found.require_on(self.mesh, at, key="at", value=at)
+        return found.element_at(self.mesh, at)
 
     def stress_form(self, gauge: Gauge) -> LinearForm:
         """Return the axial stress of a fibre, in Pa, as a form of all dofs.

@@ -60,6 +60,8 @@ def core_quantity(problem: Problem, output: Output) -> _core.Quantity | None:
     if what in IMPACT_COLUMNS and output.statistic in _STATISTICS:
         number = (output.impact or 1) - 1
         law = _law(problem, output)
+        if output.latest is not None:
+            return _core.Quantity.last_impacts(law, IMPACT_COLUMNS[what], output.latest)
         return _core.Quantity.impacts(law, IMPACT_COLUMNS[what], output.statistic, number)
     if output.times:
         times = np.clip(output.times, 0.0, problem.duration)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.study.basins import SECTION, Basins, Classes, classified
 from bumpstop.study.evaluation import FAILED
 from bumpstop.study.layout import Array, unpacked_message
 from bumpstop.study.parameters import recorded_parameter
@@ -42,7 +44,8 @@ def labelled(
     -------
     xarray.Dataset
         The outputs, whether a run ``failed``, and its ``message``; over the parameters of a
-        grid, or over ``run`` with the parameters beside it. What has not been run yet is NaN.
+        grid, with the number of each ``run`` beside them, or over ``run`` with the parameters
+        beside it. What has not been run yet is NaN.
     """
     import xarray as xr
 
@@ -67,8 +70,38 @@ def labelled(
     failed = read("status") == FAILED
     found["failed"] = shaped.placed(failed, ())
     found["message"] = shaped.placed(_messages(failed, read), ())
+    if "basins" in definition:
+        classes = classified(Basins(**definition["basins"]), *map(read, SECTION))
+        found["attractor"] = (*shaped.placed(classes.numbers, ()), _ATTRACTOR)
+        found |= _attractors(classes)
     dataset = xr.Dataset(found, coordinates, attrs={"case": definition["title"]})
     return dataset.transpose(*names, ...) if shaped.names else dataset
+
+
+_ATTRACTOR = {"units": "1", "long_name": "attractor reached, 0 where none was found"}
+
+
+def _attractors(classes: Classes) -> dict[str, Any]:
+    """Return what is told of each attractor, counted from 1, over ``attractors``."""
+    most = max((each.periods for each in classes.attractors), default=0)
+    sections = np.full((2, len(classes.attractors), most), np.nan)
+    for number, each in enumerate(classes.attractors):
+        sections[:, number, : each.periods] = each.displacement, each.velocity
+    whole = {"units": "1"}
+    return {
+        "attractor_periods": (
+            "attractors",
+            np.array([each.periods for each in classes.attractors], dtype=np.int64),
+            whole | {"long_name": "periods after which it comes back"},
+        ),
+        "attractor_runs": (
+            "attractors",
+            np.array([each.runs for each in classes.attractors], dtype=np.int64),
+            whole | {"long_name": "runs that end on it"},
+        ),
+        "attractor_displacement": (("attractors", "point"), sections[0], {"units": "m"}),
+        "attractor_velocity": (("attractors", "point"), sections[1], {"units": "m/s"}),
+    }
 
 
 def _levels(definition: Mapping[str, Any]) -> dict[str, Sequence[Any]]:
@@ -85,7 +118,12 @@ class _Shape:
     def __init__(self, levels: Mapping[str, Sequence[Any]]) -> None:
         self.names = tuple(levels)
         self._sizes = tuple(map(len, levels.values()))
-        self.coordinates = {name: (name, _as_coordinate(each)) for name, each in levels.items()}
+        self.coordinates: dict[str, Any] = {
+            name: (name, _as_coordinate(each)) for name, each in levels.items()
+        }
+        if levels:
+            numbers = np.arange(math.prod(self._sizes))
+            self.coordinates["run"] = self.placed(numbers, ())
 
     def placed(
         self, values: NDArray[Any], more: Sequence[str]

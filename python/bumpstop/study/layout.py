@@ -95,7 +95,7 @@ class Layout:
 
     def _output(self, name: str, output: Output) -> Array:
         shape = (self.count, *output.shape)
-        dimensions = ("run", *(f"{name}_time" for _ in output.shape))
+        dimensions = ("run", *(f"{name}_{output.dimension}" for _ in output.shape))
         times = {"times": list(output.times)} if output.times else {}
         return Array(shape, "float64", np.nan, dimensions, output.attributes | times)
 

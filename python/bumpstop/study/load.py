@@ -15,6 +15,7 @@ from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.load import load_case
 from bumpstop.io.case.mistakes import first_mistake
 from bumpstop.io.case.tables.check import checked
+from bumpstop.study.basins import Basins
 from bumpstop.study.outputs import Output
 from bumpstop.study.sampling import Sampling
 from bumpstop.study.study import Study
@@ -77,6 +78,7 @@ def _loaded(file: Path, tables: StudyFile) -> LoadedStudy:
             sampling=sampling,
             variant=tables.variant,
             chunk=None if execution is None else execution.chunk,
+            basins=None if tables.basins is None else Basins(**dict(tables.basins)),
         )
     return LoadedStudy(
         study=study,

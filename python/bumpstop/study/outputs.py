@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, one_of, series
+from bumpstop.arguments import FloatArray, count, one_of, series
 from bumpstop.errors import InputError
 from bumpstop.post.impacts import impacts_of
 from bumpstop.post.references import IMPACT_COLUMNS, REFERENCE_QUANTITIES, Reference, computed
@@ -79,6 +79,10 @@ class Output:
         Of a quantity of impacts, over all of the stop: the same words.
     times
         Instead of a statistic: the instants in s at which a quantity of time is kept.
+    latest
+        Instead of a statistic: of how many impacts, the last of the run, a quantity of impacts
+        is kept, such as the closing speeds of a bifurcation diagram; NaN in front where there
+        are fewer.
 
     Raises
     ------
@@ -96,12 +100,15 @@ class Output:
     impact: int | None = None
     statistic: str | None = None
     times: Sequence[float] = ()
+    latest: int | None = None
 
     def __post_init__(self) -> None:
         one_of("quantity", self.quantity, OUTPUT_QUANTITIES)
         object.__setattr__(self, "times", series("times", self.times) if len(self.times) else ())
         if self.statistic is not None:
             one_of("statistic", self.statistic, OUTPUT_STATISTICS)
+        if self.latest is not None:
+            self._check_latest()
         self._check_statistic()
         if self.quantity not in _OF_RUN:
             _ = self.target
@@ -111,8 +118,15 @@ class Output:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many numbers it is: one, or one an instant."""
+        """How many numbers it is: one, or one an instant, or one an impact."""
+        if self.latest is not None:
+            return (self.latest,)
         return (len(self.times),) if self.times else ()
+
+    @property
+    def dimension(self) -> str:
+        """What its numbers are over, where it has several: ``time`` or ``impact``."""
+        return "time" if self.latest is None else "impact"
 
     @property
     def attributes(self) -> dict[str, str]:
@@ -127,7 +141,11 @@ class Output:
     def record(self) -> dict[str, Any]:
         """What it is, for a study to be known again by."""
         places = {key: value for key, value in self._places.items() if value is not None}
-        extra = {"statistic": self.statistic} if self.statistic else {"times": list(self.times)}
+        extra: dict[str, Any] = {"times": list(self.times)}
+        if self.statistic:
+            extra = {"statistic": self.statistic}
+        elif self.latest is not None:
+            extra = {"latest": self.latest}
         return {"quantity": self.quantity, **places, **extra}
 
     @cached_property
@@ -175,6 +193,10 @@ class Output:
             return _of_impacts(self.statistic, table[IMPACT_COLUMNS[self.quantity]])
         if self.statistic is not None:
             return _over_time(self.statistic, self._sampled(response), response.times)
+        if self.latest is not None:
+            table = impacts_of(response, response.law_index(str(self.stop)))
+            column = table[IMPACT_COLUMNS[self.quantity]][-self.latest :]
+            return np.concatenate([np.full(self.latest - len(column), np.nan), column])
         values = computed(response, self.target)[1]
         return values if self.times else float(values[0])
 
@@ -197,7 +219,7 @@ class Output:
 
     def _check_statistic(self) -> None:
         many = self._is_of_time or (self._is_of_impacts and self.impact is None)
-        if many and self.statistic is None and not self.times:
+        if many and self.statistic is None and not self.times and self.latest is None:
             what = f"is needed for {self.quantity}: it has many values"
             hint = "or give times" if self._is_of_time else "or the number of an impact"
             raise InputError(what, key="statistic", hint=hint)
@@ -208,6 +230,15 @@ class Output:
             raise InputError(what, key="statistic", value=self.statistic)
         if self.quantity in STATISTICS and self.times:
             raise InputError("is one value of the whole run", key="times", value=self.times)
+
+    def _check_latest(self) -> None:
+        count("latest", self.latest)
+        if not self._is_of_impacts:
+            what = "belongs to quantities of impacts"
+            raise InputError(what, key="latest", value=self.quantity)
+        if self.impact is not None or self.statistic is not None or self.times:
+            hint = "give either latest, or the number of one impact or a statistic"
+            raise InputError("is one of several ways to choose impacts", key="latest", hint=hint)
 
     def _sampled(self, response: Response) -> Callable[[FloatArray], FloatArray]:
         """Return the quantity as a function of instants."""

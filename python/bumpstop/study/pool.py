@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import sys
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import suppress
 from queue import Empty, Queue, SimpleQueue
 from subprocess import PIPE, Popen
@@ -21,9 +21,9 @@ from bumpstop.study.evaluation import Evaluator, Kept, Recipe
 from bumpstop.study.frames import receive, send
 from bumpstop.study.parameters import Level
 
-__all__ = ["Done", "Task", "Worker", "evaluated", "usable_cores"]
+__all__ = ["DIED", "Done", "Task", "Worker", "evaluated", "usable_cores"]
 
-_DIED = "the process that made this run died: it was killed, or found no memory"
+DIED = "the process that made this run died: it was killed, or found no memory"
 
 
 class Task(NamedTuple):
@@ -51,7 +51,7 @@ def usable_cores() -> int:
 
 def evaluated(
     recipe: Recipe, chunks: Sequence[int], task_of: Callable[[int], Task], workers: int
-) -> Iterator[Done]:
+) -> Generator[Done]:
     """Yield what is kept of each chunk, in the order in which they are done.
 
     Parameters
@@ -175,7 +175,7 @@ class _Feeder:
     def _one_by_one(self, task: Task) -> Kept:
         """Make the runs of a task that has killed a process, each by itself."""
         number = len(next(iter(task.columns.values())))
-        kept = Kept.failed(self._recipe.outputs, [_DIED] * number)
+        kept = Kept.failed(self._recipe.outputs, [DIED] * number)
         for run in range(number):
             single = self._answer({name: [column[run]] for name, column in task.columns.items()})
             if single is not None:

@@ -16,6 +16,6 @@ def study_schema() -> dict[str, Any]:
     Examples
     --------
     >>> study_schema()["required"]
-    ['case', 'parameters', 'outputs']
+    ['case', 'parameters']
     """
     return schema_of(StudyFile, "bumpstop study")

@@ -205,7 +205,7 @@ def _make(path: Path, layout: Layout, definition: dict[str, Any]) -> None:
 
     remove_leftovers(path)
     part = temporary_name(path)
-    with _said(path):
+    with _said(path, "make room, or name another folder"):
         path.parent.mkdir(parents=True, exist_ok=True)
         group = zarr.open_group(part, mode="w", attributes={DEFINITION: definition})
         for name, array in layout.arrays.items():
@@ -278,14 +278,16 @@ def _require_zarr() -> None:
         raise InputError("needs the package zarr, which is not installed", key="store", hint=hint)
 
 
+_MENDED = "what is there is whole; mend it and go on with --resume (resume=True)"
+
+
 @contextmanager
-def _said(path: Path) -> Iterator[None]:
+def _said(path: Path, hint: str = _MENDED) -> Iterator[None]:
     """Say in one line that a store cannot be read or written."""
     try:
         yield
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)
-        hint = "what is there is whole; mend it and go on with --resume (resume=True)"
         what = f"cannot be written: {reason}"
         raise InputError(what, file=str(path), key="store", hint=hint) from error
     except (KeyError, ValueError, RuntimeError) as error:  # codecs of zarr raise the last

@@ -20,8 +20,9 @@ from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.load import checked_tables
 from bumpstop.io.case.overrides import overridden
 from bumpstop.io.units import WRONG_UNIT
+from bumpstop.study.basins import Basins
 from bumpstop.study.evaluation import Recipe
-from bumpstop.study.execution import Progress, execute
+from bumpstop.study.execution import Progress, execute, hired
 from bumpstop.study.layout import Layout
 from bumpstop.study.outputs import Output
 from bumpstop.study.parameters import Parameter, as_parameter
@@ -32,9 +33,11 @@ from bumpstop.study.store import MemoryStore, Store, open_zarr_store, read_store
 if TYPE_CHECKING:
     import xarray as xr
 
+    from bumpstop.study.cluster import Scheduler
+
 __all__ = ["Study", "open_study", "study"]
 
-_TAKEN = ("run", "message", "status", "failed", "character")
+_TAKEN = ("run", "message", "status", "failed", "character", "attractor")
 """Names of what every study has."""
 
 
@@ -57,6 +60,8 @@ class Study:
         Which variant of the case; needed where it has several.
     chunk
         Runs that are made and written together; by the number of runs where left out.
+    basins
+        Tell which attractor each run ends on; the results get it as ``attractor``.
 
     Raises
     ------
@@ -85,6 +90,7 @@ class Study:
     sampling: Sampling = Sampling()  # noqa: RUF009  # frozen
     variant: str | None = None
     chunk: int | None = None
+    basins: Basins | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.case, Case) or not self.case.documents:
@@ -92,8 +98,8 @@ class Study:
             raise InputError("must be a case from a file", key="case", hint=hint)
         given = {key: _parameter(key, value) for key, value in self.parameters.items()}
         object.__setattr__(self, "parameters", given)
-        object.__setattr__(self, "outputs", dict(self.outputs))
         object.__setattr__(self, "variant", _variant(self.case, self.variant))
+        object.__setattr__(self, "outputs", {**self.outputs, **self._sections()})
         if self.chunk is not None:
             count("chunk", self.chunk)
         self._check_parameters()
@@ -138,6 +144,11 @@ class Study:
         )
 
     @cached_property
+    def files(self) -> dict[str, str]:
+        """The files that the case names, and what tells their content."""
+        return dict(_digests(self.document, self.case.path.parent))
+
+    @cached_property
     def definition(self) -> dict[str, Any]:
         """All that the results depend on: two studies with the same one are the same."""
         from bumpstop import __version__
@@ -146,12 +157,13 @@ class Study:
             "title": self.case.title,
             "bumpstop": __version__,
             "case": self.document,
-            "files": dict(_digests(self.document, self.case.path.parent)),
+            "files": self.files,
             "parameters": {key: each.record for key, each in self.varied.items()},
             "sampling": self.sampling.record,
             "slowest_first": list(self.runs.names),
             "outputs": {key: each.record for key, each in self.outputs.items()},
             "chunk": self.layout.chunk,
+            **({} if self.basins is None else {"basins": self.basins.record}),
         }
 
     def task(self, chunk: int) -> Task:
@@ -165,6 +177,7 @@ class Study:
         *,
         workers: int | None = None,
         resume: bool = False,
+        scheduler: Scheduler | None = None,
         progress: Callable[[Progress], None] | None = None,
     ) -> xr.Dataset:
         """Make all runs, and return what is kept of them.
@@ -178,6 +191,10 @@ class Study:
             depend on it, to the last bit.
         resume
             Go on with a store that is there.
+        scheduler
+            A dask scheduler whose workers make the runs, instead of processes here: its
+            address, the path of its scheduler file, or a cluster or client of
+            ``distributed``. Results do not depend on it either.
         progress
             Called after each chunk.
 
@@ -191,13 +208,20 @@ class Study:
         ------
         InputError
             If the store cannot be written, is there and shall not be resumed, or is that of
-            another study.
+            another study; or the scheduler does not answer.
+        ComputationError
+            If the scheduler goes away; what was made before is in the store.
         """
+        with hired(scheduler) as cluster:
+            opened = self.opened(store, resume=resume)
+            execute(self, opened, workers, progress, cluster)
+        return self.labelled(opened)
+
+    def labelled(self, store: Store) -> xr.Dataset:
+        """Return what a store holds; see `run`."""
         from bumpstop.study.dataset import labelled
 
-        opened = self.opened(store, resume=resume)
-        execute(self, opened, workers, progress)
-        return labelled(self.definition, self.layout.arrays, opened.read)
+        return labelled(self.definition, self.layout.arrays, store.read)
 
     def opened(self, store: str | PathLike[str] | None, *, resume: bool) -> Store:
         """Return where results are kept; see `run`."""
@@ -255,6 +279,16 @@ class Study:
             self._objection(key, value) is not None for value in beside
         )
 
+    def _sections(self) -> dict[str, Output]:
+        """Return what tells attractors apart, where they are wanted."""
+        if self.basins is None:
+            return {}
+        problem = self.case.problems.get(str(self.variant))
+        if problem is None:
+            raise InputError("is missing: nothing runs", key="run")
+        with keyed("basins"):
+            return self.basins.outputs(problem.duration)
+
     def _check_outputs(self) -> None:
         if not self.outputs:
             hint = "say what to keep of each run"
@@ -288,9 +322,11 @@ def study(
     count: int | None = None,
     seed: int = 0,
     variant: str | None = None,
+    basins: Basins | None = None,
     store: str | PathLike[str] | None = None,
     workers: int | None = None,
     resume: bool = False,
+    scheduler: Scheduler | None = None,
 ) -> xr.Dataset:
     """Make many runs of a case, and return what is kept of them.
 
@@ -307,7 +343,9 @@ def study(
         See `Sampling`.
     variant
         Which variant of the case; needed where it has several.
-    store, workers, resume
+    basins
+        Tell which attractor each run ends on; see `Basins`.
+    store, workers, resume, scheduler
         See `Study.run`.
 
     Returns
@@ -334,9 +372,14 @@ def study(
     """
     loaded = case if isinstance(case, Case) else load_case(case)
     made = Study(
-        loaded, parameters, outputs, sampling=Sampling(sampling, count, seed), variant=variant
+        loaded,
+        parameters,
+        outputs,
+        sampling=Sampling(sampling, count, seed),
+        variant=variant,
+        basins=basins,
     )
-    return made.run(store, workers=workers, resume=resume)
+    return made.run(store, workers=workers, resume=resume, scheduler=scheduler)
 
 
 def open_study(store: str | PathLike[str]) -> xr.Dataset:

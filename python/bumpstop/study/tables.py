@@ -7,7 +7,7 @@ from bumpstop.arguments import did_you_mean
 from bumpstop.errors import InputError
 from bumpstop.io.case.fields.counts import Count, CountFromZero
 from bumpstop.io.case.fields.plain import Plain
-from bumpstop.io.case.fields.quantities import Times
+from bumpstop.io.case.fields.quantities import PositiveNumber, PositiveTime, Times
 from bumpstop.io.case.fields.words import Name, Node, OneDof, Text, choice
 from bumpstop.io.case.tables.table import Field, Table
 from bumpstop.study.outputs import OUTPUT_QUANTITIES, OUTPUT_STATISTICS
@@ -130,6 +130,27 @@ class StudyOutputTable(Table):
     times: Times | None = Field(
         default=None, description="Instead of a statistic: the instants, in s, to keep it at"
     )
+    latest: Count | None = Field(
+        default=None,
+        description="Instead of a statistic: of how many impacts, the last of the run, to keep it",
+    )
+
+
+class BasinsTable(Table):
+    """Which attractor each run ends on: basins of attraction."""
+
+    node: Node = Field(description="Whose displacement and velocity tell attractors apart")
+    dof: OneDof = Field(description="Along or about which axis")
+    period: PositiveTime = Field(description="Of the load, in s")
+    most: Count = Field(
+        default=8,
+        description="Largest number of periods after which a motion may come back; twice as many "
+        "at the end of each run are looked at",
+    )
+    tolerance: PositiveNumber = Field(
+        default=1e-3,
+        description="Points nearer than this, relative to the largest of all, are the same",
+    )
 
 
 class ExecutionTable(Table):
@@ -165,6 +186,9 @@ class StudyFile(Table):
         default=None, description="How values are put together; a grid where left out"
     )
     outputs: dict[Name, StudyOutputTable] = Field(
-        description="What is kept of each run, by a name of your own"
+        default={}, description="What is kept of each run, by a name of your own"
+    )
+    basins: BasinsTable | None = Field(
+        default=None, description="Tell which attractor each run ends on"
     )
     execution: ExecutionTable | None = Field(default=None, description="How the runs are made")

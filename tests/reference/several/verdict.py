@@ -139,7 +139,8 @@ def undecidable(problem: SeveralStops, judge: Judge, difference: Difference) -> 
         return True
     row, gap = problem.laws[difference.stop].coordinates[0]
     displacement = judge.motion(np.linspace(difference.time, difference.until, 9))[0]
-    reach = np.abs(judge.motion(np.linspace(0.0, judge.end, 9))[0]).max()
+    # Heavily damped motions are large for a moment only.
+    reach = np.abs(judge.motion(np.linspace(0.0, judge.end, 513))[0]).max()
     distance = np.abs(gap + displacement @ row).max()
     return bool(distance <= blurred * (np.abs(row).sum() * reach + abs(gap)))
 

@@ -14,7 +14,11 @@ from .conftest import (
 )
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from playwright.sync_api import Page
+
+    from .conftest import Opened
 
 
 class TestPlots:
@@ -33,6 +37,12 @@ class TestPlots:
         expected = soft.sample("displacement", "B", "dy", times=times) * 1e3
         np.testing.assert_allclose(computed["y"], expected, atol=1e-5 * np.abs(expected).max())
 
+    def test_a_page_opens_without_waiting_for_them(self, opened: Opened, sdnl32_page: Path) -> None:
+        page = opened(sdnl32_page)
+        assert not page.evaluate("'Plotly' in window")
+        draw_all(page)
+        assert page.evaluate("'Plotly' in window")
+
     def test_every_figure_is_drawn_with_its_axes(self, page: Page) -> None:
         draw_all(page)
         places = page.locator("#variant-1 [data-figure]")
@@ -48,7 +58,7 @@ class TestPlots:
             (0, ("displacement", "B", "dy"), "mm"),
             (1, ("stop_force", "spring"), "N"),
             (2, ("gap", "spring"), "mm"),
-            (3, ("gauge", "strain"), "µε"),
+            (4, ("gauge", "strain"), "µε"),
         ],
     )
     @pytest.mark.parametrize("time", [0.5, 6.37, 15.0])

@@ -4,6 +4,8 @@
 //! A run depends on its own numbers alone. No bit of it depends on how many threads there are, on
 //! the runs beside it or on their order.
 
+mod chain;
+mod lanes;
 mod parameters;
 mod quantity;
 mod reading;
@@ -14,9 +16,12 @@ pub use quantity::{EnergyTerm, ImpactColumn, LawMotion, OfRun, Pick, Quantity};
 pub use workers::Progress;
 
 use crate::error::{Error, Result};
+use crate::history::History;
 use crate::law::AnyLaw;
 use crate::method::{check_linear, piecewise_linear};
+use crate::number::dispatch;
 use crate::problem::Problem;
+use lanes::{Bench, Common, Part};
 use reading::Reading;
 use std::sync::Arc;
 
@@ -26,6 +31,8 @@ pub struct Batch {
     problem: Problem<AnyLaw>,
     quantities: Vec<Quantity>,
     width: usize,
+    /// What lanes need, where they are asked for and can make the runs.
+    common: Option<Box<Common>>,
 }
 
 /// A run that could not be made.
@@ -53,7 +60,15 @@ impl Batch {
             problem,
             quantities,
             width,
+            common: None,
         })
+    }
+
+    /// The same, eight runs at a time where the problem and what is asked for allow it. Results
+    /// differ from those of single runs by rounding, and no event does.
+    pub fn in_lanes(mut self) -> Self {
+        self.common = Common::of(&self.problem, &self.quantities).map(Box::new);
+        self
     }
 
     /// How many numbers are kept of each run.
@@ -97,27 +112,47 @@ impl Batch {
         desk: &mut Desk,
         failures: &mut Vec<Failure>,
     ) {
-        for (number, row) in values.chunks_exact_mut(self.width).enumerate() {
-            let run = first + number;
-            if let Err(error) = self.single(parameters, run, row, desk) {
-                row.fill(f64::NAN);
-                failures.push(Failure { run, error });
-            }
+        let mut left = std::mem::take(&mut desk.left);
+        left.clear();
+        match (&self.common, &mut desk.bench) {
+            (Some(common), Some(bench)) => dispatch(Part {
+                common,
+                problem: &self.problem,
+                parameters,
+                first,
+                values,
+                bench,
+                left: &mut left,
+            }),
+            _ => left.extend(0..values.len() / self.width),
         }
+        for number in &left {
+            let row = &mut values[number * self.width..(number + 1) * self.width];
+            failures.extend(self.single(parameters, first + number, row, desk));
+        }
+        desk.left = left;
     }
 
-    /// Makes one run as [`crate::method::simulate`] does.
+    /// Makes one run by itself; returns why where it failed.
     fn single(
         &self,
         parameters: &Parameters<'_>,
         run: usize,
         row: &mut [f64],
         desk: &mut Desk,
-    ) -> Result<()> {
+    ) -> Option<Failure> {
         let problem = Arc::make_mut(&mut desk.problem);
-        parameters.set(&self.problem, run, problem)?;
-        let history = piecewise_linear::simulate(&desk.problem, &mut |_| true)?;
-        let mut reading = Reading::new(&history);
+        let history = (parameters.set(&self.problem, run, problem))
+            .and_then(|()| piecewise_linear::simulate(&desk.problem, &mut |_| true));
+        let read = history.and_then(|history| self.read(&history, parameters.pace(run), row));
+        let error = read.err()?;
+        row.fill(f64::NAN);
+        Some(Failure { run, error })
+    }
+
+    /// Reads what is kept of a run.
+    fn read(&self, history: &History<AnyLaw>, pace: f64, row: &mut [f64]) -> Result<()> {
+        let mut reading = Reading::new(history, pace);
         let mut left = row;
         for quantity in &self.quantities {
             let (own, others) = left.split_at_mut(quantity.width());
@@ -132,12 +167,17 @@ impl Batch {
 struct Desk {
     /// The problem with the numbers of the present run.
     problem: Arc<Problem<AnyLaw>>,
+    bench: Option<Bench>,
+    /// Runs of a part that are made by themselves, counted from its first.
+    left: Vec<usize>,
 }
 
 impl Desk {
     fn new(batch: &Batch) -> Self {
         Self {
             problem: Arc::new(batch.problem.clone()),
+            bench: batch.common.as_ref().map(|common| common.bench()),
+            left: Vec::new(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What varies from run to run.
 
 use crate::error::{Error, Result, check_finite, check_length};
-use crate::law::AnyLaw;
+use crate::law::{AnyLaw, Stop};
 use crate::problem::Problem;
 
 /// Which number of a stop.
@@ -50,6 +50,12 @@ pub struct Parameters<'a> {
     pub velocity: Start<'a>,
     /// Factors of all loads.
     pub loads: Option<&'a [f64]>,
+    /// How many times as fast loads and obstacles move; a run then lasts so many times less long,
+    /// and what is kept at given times is kept so many times earlier.
+    pub pace: Option<&'a [f64]>,
+    /// So many consecutive runs make a chain: each but its first starts from the state in which
+    /// the one before it ended. 1 where every run starts by itself.
+    pub chain: usize,
 }
 
 impl Parameters<'_> {
@@ -69,10 +75,37 @@ impl Parameters<'_> {
                 Start::Given(rows) => check_length("the start", rows, self.runs * modes)?,
             }
         }
-        match self.loads {
-            None => Ok(()),
-            Some(factors) => check_length("factors of the loads", factors, self.runs),
+        for factors in [self.loads, self.pace].into_iter().flatten() {
+            check_length("factors of the loads", factors, self.runs)?;
         }
+        if self.chain == 0 || !self.runs.is_multiple_of(self.chain) {
+            return Err(Error::Length {
+                what: "the last chain of runs",
+                found: self.runs.checked_rem(self.chain).unwrap_or(0),
+                expected: self.chain.max(1),
+            });
+        }
+        Ok(())
+    }
+
+    /// Whether runs start where others end.
+    pub(super) fn is_chained(&self) -> bool {
+        self.chain > 1
+    }
+
+    /// How many times as fast loads are in a run.
+    pub(super) fn pace(&self, run: usize) -> f64 {
+        self.pace.map_or(1.0, |factors| factors[run])
+    }
+
+    /// Gap, stiffness and damping of the only law in a run, none of them checked.
+    #[inline(always)]
+    pub(super) fn stop(&self, run: usize, base: &Stop) -> [f64; 3] {
+        let mut numbers = [base.gap(), base.stiffness(), base.damping()];
+        for stop in &self.stops {
+            numbers[stop.number as usize] = stop.values[run];
+        }
+        numbers
     }
 
     /// Sets a problem to the numbers of one run; `base` has those that do not vary.
@@ -98,15 +131,52 @@ impl Parameters<'_> {
             .set(run, &base.velocity, &mut problem.velocity);
         check_finite("displacement", &problem.displacement)?;
         check_finite("velocity", &problem.velocity)?;
+        self.set_loads(base, run, problem)
+    }
+
+    fn set_loads(
+        &self,
+        base: &Problem<AnyLaw>,
+        run: usize,
+        problem: &mut Problem<AnyLaw>,
+    ) -> Result<()> {
         if let Some(factors) = self.loads {
             check_finite("a factor of the loads", &factors[run..=run])?;
             problem.forcing = base.forcing.scaled(factors[run]);
         }
+        let Some(factors) = self.pace else {
+            return Ok(());
+        };
+        let pace = factors[run];
+        check_finite("the pace of the loads", &[pace])?;
+        if pace <= 0.0 {
+            return Err(Error::NotPositive {
+                what: "the pace of the loads",
+                value: pace,
+            });
+        }
+        let own = if self.loads.is_some() {
+            &problem.forcing
+        } else {
+            &base.forcing
+        };
+        problem.forcing = own.faster(pace);
+        problem.duration = base.duration / pace;
         Ok(())
     }
 }
 
 impl Start<'_> {
+    /// The number of one mode in a run.
+    #[inline(always)]
+    pub(super) fn of(&self, run: usize, base: &[f64], mode: usize) -> f64 {
+        match self {
+            Start::Same => base[mode],
+            Start::Scaled(factors) => factors[run] * base[mode],
+            Start::Given(rows) => rows[run * base.len() + mode],
+        }
+    }
+
     pub(super) fn set(&self, run: usize, base: &[f64], to: &mut [f64]) {
         match self {
             Start::Same => {}

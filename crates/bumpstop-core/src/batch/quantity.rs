@@ -43,6 +43,16 @@ pub enum Quantity {
         /// Of which impact.
         pick: Pick,
     },
+    /// A number of each of the last impacts of a law, the latest behind; NaN in front where there
+    /// are fewer.
+    LastImpacts {
+        /// The law, by number.
+        law: usize,
+        /// Which of an impact's numbers.
+        column: ImpactColumn,
+        /// Of how many.
+        count: usize,
+    },
     /// How many impacts there are: on one law, or on all.
     ImpactCount {
         /// The law, by number.
@@ -130,6 +140,7 @@ impl Quantity {
             Self::Motion { times, .. } | Self::Law { times, .. } | Self::Energy { times, .. } => {
                 times.len()
             }
+            Self::LastImpacts { count, .. } => *count,
             Self::Impacts { .. } | Self::ImpactCount { .. } | Self::OfRun(_) => 1,
         }
     }
@@ -145,9 +156,9 @@ impl Quantity {
                 check_times(times, problem.duration)
             }
             Self::Energy { times, .. } => check_times(times, problem.duration),
-            Self::Impacts { law, .. } | Self::ImpactCount { law: Some(law) } => {
-                check_law(*law, problem)
-            }
+            Self::Impacts { law, .. }
+            | Self::LastImpacts { law, .. }
+            | Self::ImpactCount { law: Some(law) } => check_law(*law, problem),
             Self::ImpactCount { law: None } | Self::OfRun(_) => Ok(()),
         }
     }
@@ -169,6 +180,14 @@ fn check_times(times: &[f64], duration: f64) -> Result<()> {
 }
 
 impl ImpactColumn {
+    /// Whether the states at both ends of an impact tell it.
+    pub(super) fn is_of_ends(self) -> bool {
+        matches!(
+            self,
+            Self::Start | Self::End | Self::Duration | Self::ClosingSpeed | Self::OpeningSpeed
+        )
+    }
+
     /// The number of one impact.
     pub(super) fn of(self, impact: &Impact) -> f64 {
         match self {

@@ -34,11 +34,16 @@ pub(super) fn run(
     if parameters.runs == 0 || batch.width == 0 {
         return Ok(Vec::new());
     }
-    let threads = threads.clamp(1, parameters.runs.div_ceil(CHUNK));
+    let chunk = if parameters.is_chained() {
+        parameters.chain
+    } else {
+        CHUNK
+    };
+    let threads = threads.clamp(1, parameters.runs.div_ceil(chunk));
     let shared = Shared {
         batch,
         parameters,
-        left: Mutex::new((0, values.chunks_mut(CHUNK * batch.width))),
+        left: Mutex::new((0, values.chunks_mut(chunk * batch.width))),
         done: AtomicUsize::new(0),
         stopped: AtomicBool::new(false),
     };
@@ -71,14 +76,26 @@ impl Shared<'_, '_> {
             let Some((first, values)) = self.next() else {
                 break;
             };
-            let runs = values.len() / self.batch.width;
-            (self.batch).part(self.parameters, first, values, &mut desk, &mut failures);
-            let done = self.done.fetch_add(runs, Ordering::Relaxed) + runs;
-            if !progress(done) {
-                self.stopped.store(true, Ordering::Relaxed);
+            let (batch, parameters) = (self.batch, self.parameters);
+            if parameters.is_chained() {
+                let mut goes_on = || self.goes_on(1, progress);
+                failures.extend(batch.chain(parameters, first, values, &mut desk, &mut goes_on));
+                continue;
             }
+            let runs = values.len() / batch.width;
+            batch.part(parameters, first, values, &mut desk, &mut failures);
+            self.goes_on(runs, progress);
         }
         failures
+    }
+
+    /// Tells how many more runs there are; returns whether to go on.
+    fn goes_on(&self, more: usize, progress: Progress<'_>) -> bool {
+        let done = self.done.fetch_add(more, Ordering::Relaxed) + more;
+        if !progress(done) {
+            self.stopped.store(true, Ordering::Relaxed);
+        }
+        !self.stopped.load(Ordering::Relaxed)
     }
 }
 

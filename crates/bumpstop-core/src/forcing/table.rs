@@ -46,6 +46,14 @@ impl Table {
         })
     }
 
+    /// The same so many times as fast.
+    pub(super) fn faster(&self, factor: f64) -> Self {
+        Self {
+            times: self.times.iter().map(|time| time / factor).collect(),
+            ..self.clone()
+        }
+    }
+
     /// How many knots are not after a time.
     pub fn place(&self, time: f64) -> usize {
         self.times.partition_point(|knot| *knot <= time)

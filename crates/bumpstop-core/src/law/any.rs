@@ -214,6 +214,15 @@ impl Law for AnyLaw {
         ask!(self, law => law.memory_sizes(position))
     }
 
+    fn internal_variables(
+        &self,
+        state: State,
+        position: &Local<f64>,
+        velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        ask!(self, law => law.internal_variables(state, position, velocity))
+    }
+
     fn has_failed(&self) -> bool {
         ask!(self, law => law.has_failed())
     }
@@ -233,6 +242,10 @@ impl Law for AnyLaw {
 
     fn resolution(&self) -> f64 {
         ask!(self, law => law.resolution())
+    }
+
+    fn rigid_friction(&self) -> f64 {
+        ask!(self, law => law.rigid_friction())
     }
 
     #[inline(always)]

@@ -426,6 +426,25 @@ impl Law for BucklingStop {
         Some(piece)
     }
 
+    /// The largest crushing since it buckled, and what would be left of it without force.
+    fn internal_variables(
+        &self,
+        state: State,
+        position: &Local<f64>,
+        velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        let memory = match state.number {
+            PLATEAU..=POST => {
+                let crushing = -self.distance(position, velocity).0;
+                self.load(state.number, crushing.max(state.memory[0]))
+                    .memory
+            }
+            _ if Self::before(state).is_some() => return [0.0; 2],
+            _ => state.memory,
+        };
+        [memory[0], self.unloading(memory).residual]
+    }
+
     fn guard_count(&self, state: State) -> usize {
         match state.number {
             CLOSED => 2,

@@ -359,6 +359,25 @@ impl Law for FrictionStop {
         force
     }
 
+    /// Where the slider stands: the anchor of the stick, while there is contact.
+    fn internal_variables(
+        &self,
+        state: State,
+        position: &Local<f64>,
+        velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        let slider = match Self::sliding(state) {
+            Some(sign) => {
+                let normal = Self::normal_state(state);
+                let [push, ..] = self.normal.force(normal, position, velocity);
+                self.slider(sign, push, position[SLIDING])
+            }
+            None if state.number == Self::STICK => state.memory[0],
+            None => f64::NAN,
+        };
+        [slider, f64::NAN]
+    }
+
     fn piece(&self, state: State) -> Option<Piece> {
         let mut piece = self.normal.piece(Self::normal_state(state))?;
         if state.number == Self::STICK {

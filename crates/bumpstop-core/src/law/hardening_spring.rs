@@ -311,6 +311,16 @@ impl Law for HardeningSpring {
         [-self.tension(state).at(position, velocity), zero, zero]
     }
 
+    /// The plastic elongation, and the same summed up.
+    fn internal_variables(
+        &self,
+        state: State,
+        position: &Local<f64>,
+        _velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        self.memory_at(state, position[0])
+    }
+
     fn piece(&self, state: State) -> Option<Piece> {
         let tension = self.tension(state);
         let mut piece = Piece::FREE;

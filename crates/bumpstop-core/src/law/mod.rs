@@ -221,6 +221,17 @@ pub trait Law: Clone + Send + Sync {
         [position[0].abs(); 2]
     }
 
+    /// The internal variables at an instant, in the order in which the law's users know them: what
+    /// it remembers, brought up to the motion. Not a number where there is none, as without contact.
+    fn internal_variables(
+        &self,
+        _state: State,
+        _position: &Local<f64>,
+        _velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        [f64::NAN; 2]
+    }
+
     /// Whether somebody outside who is asked for forces could not tell one: nothing that was
     /// computed since is of use.
     fn has_failed(&self) -> bool {
@@ -243,6 +254,12 @@ pub trait Law: Clone + Send + Sync {
 
     /// The part of the motion below which rebounds of a law with restitution end in rest.
     fn resolution(&self) -> f64 {
+        0.0
+    }
+
+    /// Coefficient of friction of a law with restitution that has a second coordinate along its
+    /// obstacle.
+    fn rigid_friction(&self) -> f64 {
         0.0
     }
 

@@ -2,10 +2,11 @@
 //!
 //! While it is open it does nothing. At an impact the velocities jump; a structure that rests
 //! against it is held there by a reaction, which is no function of the local motion: both are the
-//! method's work, from [`Law::restitution`] and [`Law::constraint`].
+//! method's work, from [`Law::restitution`] and [`Law::constraint`]. So is friction along it, whose
+//! mean over a step a resting state remembers.
 
 use super::{Affine, Constraint, Guard, Law, Local, LocalMotion, Piece, Power, State};
-use crate::error::{Error, Result, check_finite};
+use crate::error::{Error, Result, check_finite, check_length};
 use crate::number::Number;
 use crate::obstacle::Plane;
 use std::borrow::Cow;
@@ -13,9 +14,11 @@ use std::borrow::Cow;
 /// A rigid plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidStop {
-    rows: [Vec<f64>; 1],
+    /// Along the normal, and along the obstacle where it rubs.
+    rows: Vec<Vec<f64>>,
     obstacle: Plane,
     restitution: f64,
+    friction: f64,
     resolution: f64,
 }
 
@@ -42,11 +45,36 @@ impl RigidStop {
             return Err(Error::Restitution { value: restitution });
         }
         Ok(Self {
-            rows: [row],
+            rows: vec![row],
             obstacle: Plane { gap },
             restitution,
+            friction: 0.0,
             resolution: RESOLUTION,
         })
+    }
+
+    /// The same, which rubs along the coordinate `tangent . q` with a coefficient of friction.
+    ///
+    /// # Errors
+    /// When a number is not finite, the coefficient negative, or the tangent of another length.
+    pub fn with_friction(mut self, tangent: Vec<f64>, friction: f64) -> Result<Self> {
+        check_length("the sliding direction", &tangent, self.rows[0].len())?;
+        check_finite("the sliding direction", &tangent)?;
+        check_finite("the coefficient of friction", &[friction])?;
+        if friction < 0.0 {
+            return Err(Error::Negative {
+                what: "the coefficient of friction",
+                value: friction,
+            });
+        }
+        self.rows.push(tangent);
+        self.friction = friction;
+        Ok(self)
+    }
+
+    /// Resting, with the mean force of friction along the obstacle in the last step, in N.
+    pub(crate) fn resting(rubbing: f64) -> State {
+        State::with_memory(Self::RESTING.number, [rubbing, 0.0])
     }
 
     /// The same, at which rebounds lower than another part of the motion end in rest.
@@ -81,8 +109,12 @@ impl Law for RigidStop {
         self.resolution
     }
 
+    fn rigid_friction(&self) -> f64 {
+        self.friction
+    }
+
     fn constraint(&self, state: State) -> Option<Constraint> {
-        (state == Self::RESTING).then_some(Constraint {
+        self.in_contact(state).then_some(Constraint {
             coordinate: 0,
             position: -self.obstacle.gap,
         })
@@ -109,11 +141,11 @@ impl Law for RigidStop {
     #[inline(always)]
     fn force<T: Number>(
         &self,
-        _state: State,
+        state: State,
         _position: &Local<T>,
         _velocity: &Local<T>,
     ) -> Local<T> {
-        [T::of(0.0); 3]
+        [T::of(0.0), T::of(state.memory[0]), T::of(0.0)]
     }
 
     fn piece(&self, _state: State) -> Option<Piece> {
@@ -164,7 +196,7 @@ impl Law for RigidStop {
     }
 
     fn in_contact(&self, state: State) -> bool {
-        state == Self::RESTING
+        state.number == Self::RESTING.number
     }
 
     fn stiffest(&self) -> Piece {

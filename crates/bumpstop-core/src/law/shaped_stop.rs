@@ -322,6 +322,20 @@ impl Law for ShapedStop {
         (state.number <= RELEASED).then_some(Piece::FREE)
     }
 
+    /// The stretch of what rubs, around the obstacle and along its axis, while there is contact.
+    fn internal_variables(
+        &self,
+        state: State,
+        _position: &Local<f64>,
+        _velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        if matches!(state.number, STICK | SLIP) {
+            state.memory
+        } else {
+            [f64::NAN; 2]
+        }
+    }
+
     fn guard_count(&self, state: State) -> usize {
         self.watched_count(state)
     }

@@ -157,6 +157,16 @@ impl Law for UserLaw {
         [0.0; 2]
     }
 
+    /// What it remembers, without the time.
+    fn internal_variables(
+        &self,
+        state: State,
+        _position: &Local<f64>,
+        _velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        [state.memory[0], f64::NAN]
+    }
+
     fn has_failed(&self) -> bool {
         self.answers.has_failed()
     }

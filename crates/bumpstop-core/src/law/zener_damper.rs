@@ -137,6 +137,16 @@ impl Law for ZenerDamper {
         [self.speed(self.branch_force(state, position)), 0.0]
     }
 
+    /// The elongation of the dashpot.
+    fn internal_variables(
+        &self,
+        state: State,
+        _position: &Local<f64>,
+        _velocity: &Local<f64>,
+    ) -> [f64; 2] {
+        [state.memory[0], f64::NAN]
+    }
+
     fn piece(&self, _state: State) -> Option<Piece> {
         None
     }

@@ -28,8 +28,8 @@ pub enum Method {
     CentralDifference(fixed_step::Step),
     /// A classical scheme of one step.
     OneStep(one_step::SchemeName, fixed_step::Step),
-    /// A Runge-Kutta pair with step control and located switches.
-    Adaptive(adaptive::PairName, adaptive::Tolerances),
+    /// A method whose steps follow the motion, with located switches.
+    Adaptive(adaptive::Adaptive),
 }
 
 impl Method {
@@ -40,7 +40,7 @@ impl Method {
             Self::SymplecticEuler(_) => "symplectic_euler",
             Self::CentralDifference(_) => "central_difference",
             Self::OneStep(scheme, _) => scheme.name(),
-            Self::Adaptive(pair, _) => pair.name(),
+            Self::Adaptive(method) => method.name(),
         }
     }
 }
@@ -59,15 +59,14 @@ pub fn simulate<L: Law>(
 ) -> Result<History<L>> {
     match method {
         Method::Exact => {
+            check_rigid_friction(method.name(), &problem.laws)?;
             scale::check(problem)?;
             piecewise_linear::simulate(problem, observer)
         }
         Method::SymplecticEuler(step) => symplectic_euler::simulate(problem, step, observer),
         Method::CentralDifference(step) => central_difference::simulate(problem, step, observer),
         Method::OneStep(scheme, step) => one_step::simulate(problem, scheme, step, observer),
-        Method::Adaptive(pair, tolerances) => {
-            adaptive::simulate(problem, pair, tolerances, observer)
-        }
+        Method::Adaptive(method) => adaptive::simulate(problem, method, observer),
     }
 }
 
@@ -75,6 +74,14 @@ pub fn simulate<L: Law>(
 pub(crate) fn check_linear<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
     match laws.iter().position(|law| !law.is_piecewise_linear()) {
         Some(law) => Err(Error::Smooth { method, law }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses rigid stops that rub: at an impact the exact method knows normal impulses alone.
+fn check_rigid_friction<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
+    match laws.iter().position(|law| law.rigid_friction() > 0.0) {
+        Some(law) => Err(Error::RigidFriction { method, law }),
         None => Ok(()),
     }
 }

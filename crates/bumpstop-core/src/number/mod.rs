@@ -11,6 +11,8 @@ mod lanes;
 
 pub use complex::Complex;
 pub use dual::Dual;
+#[cfg(all(test, target_arch = "x86_64"))]
+pub(crate) use lanes::by_each;
 pub use lanes::{
     Block, Instructions, LANES, Lanes, Plain, Vectorised, blocks, dispatch, dot, padded,
 };

@@ -27,6 +27,7 @@ class MethodOptions(TypedDict, total=False):
     alpha: float
     spectral_radius: float
     theta: float
+    points_per_period: float
     rtol: float
     atol: float
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -23,6 +23,9 @@ from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
 from bumpstop.structure.support import Support
+
+if TYPE_CHECKING:
+    from bumpstop.structure.beam_element import BeamElement
 
 __all__ = ["Assembly"]
 
@@ -224,6 +227,17 @@ class Assembly:
         """
         part, inner = self._split(beam, "beam")
         return tuple(self._form(part, f) for f in self._parts[part].section_forms(inner, at))
+
+    def beam_element(self, beam: str, at: float) -> BeamElement:
+        """Return the element of a beam, ``"left.AB"``, that a place is in, as `Structure` does.
+
+        Raises
+        ------
+        InputError
+            If the part or the beam is unknown, or the place is not on it.
+        """
+        part, inner = self._split(beam, "beam")
+        return self._parts[part].beam_element(inner, at)
 
     def stress_form(self, gauge: Gauge) -> LinearForm:
         """Return the axial stress of a fibre as a form of all dofs; see `strain_form`.

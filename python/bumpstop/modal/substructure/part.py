@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +21,9 @@ from bumpstop.structure.forms import LinearForm
 from bumpstop.structure.gauge import Gauge
 from bumpstop.structure.model import BeamModel, SectionModel, StrainModel
 from bumpstop.structure.sparse import IndexArray, SparseMatrix
+
+if TYPE_CHECKING:
+    from bumpstop.structure.beam_element import BeamElement
 
 __all__ = ["Part"]
 
@@ -159,6 +164,12 @@ class Part:
         with self._named():
             forms = self._sections(beam).section_forms(beam, at)
         return tuple(self._of_rows(form) for form in forms)
+
+    def beam_element(self, beam: str, at: float) -> BeamElement:
+        """Return the element of a beam that a place is in, its axes turned to the global ones."""
+        with self._named():
+            found = self._sections(beam).beam_element(beam, at)
+        return replace(found, axes=found.axes @ self._axes.T)
 
     def stress_form(self, gauge: Gauge) -> LinearForm:
         """Return the axial stress of a fibre as a form of the rows; see `strain_form`."""

@@ -13,6 +13,8 @@ from bumpstop.post.results.reading import Drawn, Fact, Reading, check_period, ch
 from bumpstop.quantities import Quantity
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from bumpstop.problem import Problem
     from bumpstop.response import Response
 
@@ -39,9 +41,18 @@ class Section:
 
     def read(self, response: Response) -> Reading:
         """Read velocities over displacements, and after how many periods the motion repeats."""
+        from bumpstop.post.poincare import periodicity
+
+        repeats = periodicity(response, self.period, start=self.start)
+        what = Quantity("1", "periods after which the motion repeats itself")
+        multiple = float(repeats.multiple) if repeats.multiple is not None else math.nan
+        return Reading([Fact(what, multiple)], [Drawn(self.plane(response))])
+
+    def plane(self, response: Response) -> xr.DataArray:
+        """Return the velocities of the section over its displacements, in ascending order."""
         import xarray as xr
 
-        from bumpstop.post.poincare import periodicity, stroboscopic_section
+        from bumpstop.post.poincare import stroboscopic_section
 
         found = stroboscopic_section(
             response, self.node, self.dof, self.period, phase=self.phase, start=self.start
@@ -49,17 +60,13 @@ class Section:
         order = np.argsort(found["displacement"].values, kind="stable")
         places = ("displacement", found["displacement"].values[order], found["displacement"].attrs)
         title = f"Poincaré section of {self.node} {self.dof}"
-        plane = xr.DataArray(
+        return xr.DataArray(
             found["velocity"].values[order],
             dims="displacement",
             coords={"displacement": places},
             name="velocity",
             attrs=found["velocity"].attrs | {"title": title},
         )
-        repeats = periodicity(response, self.period, start=self.start)
-        what = Quantity("1", "periods after which the motion repeats itself")
-        multiple = float(repeats.multiple) if repeats.multiple is not None else math.nan
-        return Reading([Fact(what, multiple)], [Drawn(plane)])
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from bumpstop.arguments import FloatArray
 from bumpstop.structure.elements.slice import Slice
 from bumpstop.structure.frame import rigid_motions
 
-__all__ = ["VaryingElement", "section_forces"]
+__all__ = ["VaryingElement", "flexibility", "inertia", "section_forces"]
 
 _POINTS = 10
 """Points of Gauss's rule: exact for polynomials of degree 19."""
@@ -55,7 +55,7 @@ class VaryingElement:
         matrix = np.zeros((12, 12))
         for xi, weight in self._points():
             functions = self.interpolation(xi)
-            matrix += weight * functions.T @ (_inertia(self._slice_at(xi))[:, None] * functions)
+            matrix += weight * functions.T @ (inertia(self._slice_at(xi))[:, None] * functions)
         return _symmetric(matrix)
 
     def lumped_mass(self) -> FloatArray:
@@ -67,7 +67,7 @@ class VaryingElement:
         for end in (0, 1):
             node = np.zeros(6)
             for xi, weight in self._points(0.5):
-                node += weight * _inertia(self._slice_at(xi + 0.5 * end))
+                node += weight * inertia(self._slice_at(xi + 0.5 * end))
             without = node[0] * self._length**2 / 39.0
             node[4:] = np.where(node[4:] == 0.0, without, node[4:])
             place = np.arange(6) + 6 * end
@@ -92,7 +92,7 @@ class VaryingElement:
         matrix = np.zeros((12, 12))
         for xi, weight in self._points():
             functions = self.interpolation(xi)
-            momentum = spin * _inertia(self._slice_at(xi))[3]
+            momentum = spin * inertia(self._slice_at(xi))[3]
             matrix += weight * momentum * np.outer(functions[4], functions[5])
         return matrix - matrix.T
 
@@ -121,7 +121,7 @@ class VaryingElement:
     def _strains(self, xi: float) -> FloatArray:
         """Return stretch, two shears, twist and two curvatures at ``xi`` by the dofs, (6, 12)."""
         part = self._slice_at(xi)
-        strains: FloatArray = _flexibility(part)[:, np.newaxis] * self.section_forces(xi)
+        strains: FloatArray = flexibility(part)[:, np.newaxis] * self.section_forces(xi)
         return strains
 
     def _bent(self, xi: float) -> FloatArray:
@@ -134,7 +134,7 @@ class VaryingElement:
             part = self._slice_at(place)
             virtual = section_forces(part, (xi - place) * self._length)
             forces = section_forces(part, (1.0 - place) * self._length)
-            motion += weight * virtual.T @ (_flexibility(part)[:, np.newaxis] * forces)
+            motion += weight * virtual.T @ (flexibility(part)[:, np.newaxis] * forces)
         return motion
 
     def _points(self, up_to: float = 1.0) -> Iterator[tuple[float, float]]:
@@ -167,7 +167,7 @@ def section_forces(part: Slice, distance: float) -> FloatArray:
     return forces
 
 
-def _flexibility(part: Slice) -> FloatArray:
+def flexibility(part: Slice) -> FloatArray:
     """Return stretch, shears, twist and curvatures by unit forces, (6,)."""
     shear = part.shear * part.area
     return 1.0 / np.array(
@@ -182,7 +182,7 @@ def _flexibility(part: Slice) -> FloatArray:
     )
 
 
-def _inertia(part: Slice) -> FloatArray:
+def inertia(part: Slice) -> FloatArray:
     """Return mass and rotary inertia a metre, along and about the local axes, (6,)."""
     polar = part.inertia_y + part.inertia_z
     return part.density * np.array([part.mass_area] * 3 + [polar, part.rotary_y, part.rotary_z])

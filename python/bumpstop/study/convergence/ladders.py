@@ -16,7 +16,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError, InputError
-from bumpstop.methods import FIXED_STEP_METHODS, RTOL
+from bumpstop.methods import FIXED_STEP_METHODS, POINTS_PER_PERIOD, RTOL
 from bumpstop.modal.selection import LowestModes, ModesAround, ModeSelection, ModesInBand
 from bumpstop.study.convergence.finer import Document, has_beams, with_modes, with_static_shapes
 from bumpstop.study.convergence.limits import extrapolated, orders_towards
@@ -27,6 +27,8 @@ __all__ = ["Limits", "basis_ladder", "mesh_ladder", "remedy", "time_ladder"]
 
 EXACT = "exact"
 ALL = "all modes"
+POINTS = "points_per_period"
+MADE_FINER = {"dt": "steps of", "rtol": "tolerances of", POINTS: "points per period of"}
 OF_PARTS = "all modes of the parts as they are reduced, whose own modes are not refined"
 MOST_DOFS = 50_000
 """Independent dofs of the finest mesh."""
@@ -53,9 +55,10 @@ def time_ladder(
     own, best
         What its method and the best method give.
     options
-        Options of its method: the step, or the tolerance.
+        Options of its method: the step, the points of a period, or the tolerance.
     levels
-        How often the step is halved, or the tolerance made ten times finer.
+        How often the step is halved, the points of a period are doubled, or the tolerance made
+        ten times finer.
     """
     response, limit = own.response, best.values
     if response is None or best.response is None:
@@ -66,10 +69,10 @@ def time_ladder(
     key, sizes = _finer_steps(response.method, options, levels)
     finer = (model.as_given(response.method, **{**options, key: size}).values for size in sizes[1:])
     rungs = [
-        Rung(f"{size:.4g}", 1.0 / size, values)
+        Rung(f"{size:.4g}", size if key == POINTS else 1.0 / size, values)
         for size, values in zip(sizes, [own.values, *finer], strict=True)
     ]
-    told = f"steps of {_listed(rungs)} s" if key == "dt" else f"tolerances of {_listed(rungs)}"
+    told = f"{MADE_FINER[key]} {_listed(rungs)}{' s' if key == 'dt' else ''}"
     return Ladder(
         part="time",
         rungs=tuple(rungs),
@@ -84,6 +87,9 @@ def _finer_steps(method: str, options: Mapping[str, Any], levels: int) -> tuple[
     """Return what is made finer, and its values from that of the case on."""
     if method in FIXED_STEP_METHODS:
         return "dt", [options["dt"] / 2**level for level in range(levels + 1)]
+    if method == "adaptive_central_difference":
+        points = options.get(POINTS, POINTS_PER_PERIOD)
+        return POINTS, [points * 2**level for level in range(levels + 1)]
     rtol = options.get("rtol", RTOL)
     tolerances = (rtol / 10**level for level in range(levels + 1))
     return "rtol", [*takewhile(lambda each: each >= BEST_RTOL, tolerances)] or [rtol]

@@ -12,12 +12,10 @@
 //! stepsize selection in explicit Runge-Kutta methods, ACM Transactions on Mathematical Software
 //! 17, 533-554, 1991.
 
-use super::pair::Pair;
-use super::stepper::add_weighted;
+use super::stepping::Attempt;
 use crate::error::{Error, Result};
 use crate::law::Law;
-use crate::method::polynomial_steps::Layout;
-use crate::problem::Problem;
+use crate::method::polynomial_steps::{Equations, Layout};
 
 /// How accurate a run is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,10 +65,11 @@ impl Tolerances {
 #[derive(Debug)]
 pub(super) struct Control {
     tolerances: Tolerances,
+    /// What the error estimate goes with: the power of the step.
+    error_order: f64,
     /// The largest size of each number so far.
     sizes: Vec<f64>,
     scales: Vec<f64>,
-    errors: Vec<f64>,
     /// What memories are measured by besides, so far and at the end of the step that is tried.
     floors: [Vec<f64>; 2],
     /// Error of the last step that was taken.
@@ -82,6 +81,7 @@ pub(super) struct Control {
 impl Control {
     pub(super) fn new(
         tolerances: Tolerances,
+        error_order: f64,
         first_step: f64,
         start: &[f64],
         layout: &Layout,
@@ -89,69 +89,37 @@ impl Control {
         let controlled = layout.works;
         Self {
             tolerances,
+            error_order,
             sizes: start[..controlled].iter().map(|x| x.abs()).collect(),
             scales: vec![0.0; controlled],
-            errors: vec![0.0; controlled],
             floors: [0, 1].map(|_| vec![0.0; controlled - 2 * layout.modes]),
             before: LEAST,
             first_step,
         }
     }
 
-    /// The error of a step that ends in given numbers, over what is allowed; infinite where the
-    /// numbers are out of range.
-    pub(super) fn error<L: Law>(
+    /// Takes the measure of a step that ends in given numbers.
+    pub(super) fn measure<L: Law>(
         &mut self,
-        pair: &Pair,
-        h: f64,
         stages: &[Vec<f64>],
         end: &[f64],
-        (problem, layout): (&Problem<L>, &Layout),
-    ) -> f64 {
-        layout.memory_sizes(problem, end, &mut self.floors[1]);
+        equations: &Equations<'_, L>,
+    ) {
+        let layout = &equations.layout;
+        layout.memory_sizes(equations.problem, end, &mut self.floors[1]);
         self.set_sizes(end, stages, layout);
         self.set_scales(layout);
-        let [first, second] = [0, 1]
-            .map(|n| (pair.errors.get(n)).map_or(0.0, |weights| self.largest(h, weights, stages)));
-        let error = if pair.errors.len() == 1 || first == 0.0 {
-            first
-        } else {
-            // Hairer's estimate for the pair of order 8, section II.10 of the same book.
-            first * first / (first * first + 0.01 * second * second).sqrt()
-        };
-        if error.is_finite() {
-            error
-        } else {
-            f64::INFINITY
-        }
     }
 
-    /// Takes a step that ends in given numbers; returns the next one.
-    pub(super) fn accept(&mut self, pair: &Pair, h: f64, error: f64, end: &[f64]) -> f64 {
-        for (size, x) in self.sizes.iter_mut().zip(end) {
-            *size = size.max(x.abs());
-        }
-        let [so_far, now] = &mut self.floors;
-        for (floor, now) in so_far.iter_mut().zip(now) {
-            *floor = floor.max(*now);
-        }
-        let error = error.max(LEAST);
-        let [now, last] = EXPONENTS.map(|exponent| exponent / pair.error_order);
-        let factor = SAFETY * error.powf(-now) * self.before.powf(last);
-        self.before = error;
-        h * factor.clamp(FACTORS[0], FACTORS[1])
+    /// The error that is allowed in each number before the works, in the measure taken last.
+    pub(super) fn scales(&self) -> &[f64] {
+        &self.scales
     }
 
-    /// The step to try after one that was not good enough.
-    pub(super) fn reject(&self, pair: &Pair, h: f64, error: f64) -> f64 {
-        h * (SAFETY * error.powf(-1.0 / pair.error_order)).max(FACTORS[0])
-    }
-
-    fn largest(&mut self, h: f64, weights: &[f64], stages: &[Vec<f64>]) -> f64 {
-        self.errors.fill(0.0);
-        add_weighted(&mut self.errors, h, weights, stages);
+    /// The largest of the errors, one a number, over what is allowed.
+    pub(super) fn largest(&self, errors: &[f64]) -> f64 {
         let mut largest = 0.0f64;
-        for (error, scale) in self.errors.iter().zip(&self.scales) {
+        for (error, scale) in errors.iter().zip(&self.scales) {
             // A number that has always been zero has no error, or has just left zero.
             let ratio = if *error == 0.0 {
                 0.0
@@ -165,6 +133,37 @@ impl Control {
             };
         }
         largest
+    }
+
+    /// Takes a step with an error over what is allowed, that ends in given numbers, or not.
+    pub(super) fn judge(&mut self, h: f64, error: f64, end: &[f64]) -> Attempt {
+        if error <= 1.0 {
+            Attempt::Good(self.accept(h, error, end))
+        } else {
+            let error = if error.is_finite() {
+                error
+            } else {
+                f64::INFINITY
+            };
+            let factor = SAFETY * error.powf(-1.0 / self.error_order);
+            Attempt::Again(h * factor.max(FACTORS[0]))
+        }
+    }
+
+    /// The step after one that is good.
+    fn accept(&mut self, h: f64, error: f64, end: &[f64]) -> f64 {
+        for (size, x) in self.sizes.iter_mut().zip(end) {
+            *size = size.max(x.abs());
+        }
+        let [so_far, now] = &mut self.floors;
+        for (floor, now) in so_far.iter_mut().zip(now) {
+            *floor = floor.max(*now);
+        }
+        let error = error.max(LEAST);
+        let [now, last] = EXPONENTS.map(|exponent| exponent / self.error_order);
+        let factor = SAFETY * error.powf(-now) * self.before.powf(last);
+        self.before = error;
+        h * factor.clamp(FACTORS[0], FACTORS[1])
     }
 
     /// How large each number has been, the end of the step that is tried included.

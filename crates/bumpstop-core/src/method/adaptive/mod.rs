@@ -1,15 +1,22 @@
-//! Runge-Kutta methods with step control, dense output and located switches.
+//! Methods with step control, dense output and located switches.
 //!
 //! They take every law that makes forces, smooth ones too. While no law switches, the equations
-//! are smooth: [`pair`] has the formulas, [`control`] the step. Each step is a polynomial in time,
-//! on which the guards of the laws are bounded over the whole step, not only looked at where it
-//! ends ([`super::polynomial_steps`]); the first zero ends the step, the law switches, and the next
-//! step starts there. The error of the motion is that of the steps, which the tolerance rules.
+//! are smooth: a formula ([`stepping`]) takes a step and says how wide it may be. Runge-Kutta pairs
+//! ([`pair`]) and their exponential kin ([`exponential`]) go by a tolerance ([`control`]), the central
+//! difference by the frequency that the motion shows ([`central_difference`]). Each step is one or
+//! more polynomials in time, on which the guards of the laws are bounded over the whole step, not
+//! only looked at where it ends ([`super::polynomial_steps`]); the first zero ends the step, the law
+//! switches, and the next step starts there. The error of the motion is that of the steps.
 
+pub mod central_difference;
 mod control;
+pub mod exponential;
 mod pair;
-mod stepper;
+mod pieces;
+mod runge_kutta;
+mod stepping;
 
+pub use central_difference::Resolution;
 pub use control::{FINEST, Tolerances};
 pub use pair::PairName;
 
@@ -19,20 +26,25 @@ use super::polynomial_steps::{
     Crossing, Equations, Layout, PolynomialRecord, Step, Watch, longest_step,
 };
 use super::{Observer, check_not_stepped, observe};
+use crate::energy::{self, Growth};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
 use crate::law::{Law, Local, LocalMotion, State};
 use crate::problem::Problem;
-use control::Control;
-use pair::Pair;
+use central_difference::CentralDifference;
+use exponential::Exponential;
+use runge_kutta::RungeKutta;
 use std::sync::Arc;
-use stepper::Stepper;
+use stepping::{Attempt, Stepping};
 
 /// Switches of each law at one instant after which the run is given up.
 const MOST_SWITCHES_AT_ONCE: usize = 32;
 
 /// How often the observer is asked, in steps.
 const STEPS_BETWEEN_OBSERVATIONS: usize = 256;
+
+/// How often the energies are looked at, in steps.
+const STEPS_BETWEEN_LOOKS: usize = 16;
 
 /// The first step turns the highest frequency that is known by this angle.
 const FIRST_TURN: f64 = 0.1;
@@ -43,34 +55,94 @@ const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
 /// What is left of a stretch is taken in one step where it is not longer than this many of them.
 const LAST_STEP: f64 = 1.1;
 
+/// A method whose steps follow the motion, with what rules them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Adaptive {
+    /// A pair of Runge-Kutta formulas.
+    RungeKutta(PairName, Tolerances),
+    /// The exponential pair, see [`exponential`].
+    Exponential(Tolerances),
+    /// See [`central_difference`].
+    CentralDifference(Resolution),
+}
+
+impl Adaptive {
+    /// The method's name.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::RungeKutta(pair, _) => pair.name(),
+            Self::Exponential(_) => exponential::NAME,
+            Self::CentralDifference(_) => central_difference::NAME,
+        }
+    }
+
+    fn check(&self) -> Result<()> {
+        match self {
+            Self::RungeKutta(_, tolerances) | Self::Exponential(tolerances) => tolerances.check(),
+            Self::CentralDifference(resolution) => resolution.check(),
+        }
+    }
+}
+
 /// Runs a problem.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn simulate<L: Law>(
     problem: &Arc<Problem<L>>,
-    pair: PairName,
-    tolerances: Tolerances,
+    method: Adaptive,
     observer: Observer<'_>,
 ) -> Result<History<L>> {
-    let pair = pair.pair();
-    tolerances.check()?;
-    check_forces(pair.name, &problem.laws)?;
-    check_not_stepped(pair.name, &problem.laws)?;
-    let mut run = Run::new(problem, pair, tolerances);
-    run.advance(observer)?;
-    Ok(History::of_polynomials(
-        problem, pair.name, run.record, run.events,
-    ))
+    let name = method.name();
+    method.check()?;
+    check_forces(name, &problem.laws)?;
+    check_not_stepped(name, &problem.laws)?;
+    let (states, equations, numbers) = start(problem);
+    let first = first_step(problem);
+    let (record, events) = match method {
+        Adaptive::RungeKutta(pair, tolerances) => {
+            let formula = RungeKutta::new(pair.pair(), tolerances, first, numbers, &equations);
+            Run::new(formula, states, equations).advance(observer)
+        }
+        Adaptive::Exponential(tolerances) => {
+            let formula = Exponential::new(tolerances, first, numbers, &equations);
+            Run::new(formula, states, equations).advance(observer)
+        }
+        Adaptive::CentralDifference(resolution) => {
+            let formula = CentralDifference::new(resolution, numbers, &equations);
+            Run::new(formula, states, equations).advance(observer)
+        }
+    }?;
+    Ok(History::of_polynomials(problem, name, record, events))
+}
+
+/// The laws' states, the equations in them, and the numbers at t = 0.
+fn start<L: Law>(problem: &Problem<L>) -> (Vec<State>, Equations<'_, L>, Vec<f64>) {
+    let mut states = vec![State::FIRST; problem.laws.len()];
+    let start = Moment {
+        time: 0.0,
+        displacement: &problem.displacement,
+        velocity: &problem.velocity,
+    };
+    instant::initial_states(problem, &mut states, start);
+    let mut equations = Equations::new(problem, Layout::new(problem));
+    equations.take_states(&states);
+    let layout = &equations.layout;
+    let mut numbers = vec![0.0; layout.size()];
+    let modes = layout.modes;
+    numbers[..modes].copy_from_slice(&problem.displacement);
+    numbers[modes..2 * modes].copy_from_slice(&problem.velocity);
+    for (law, state) in states.iter().enumerate() {
+        layout.remember(law, *state, &mut numbers);
+    }
+    (states, equations, numbers)
 }
 
 /// A run in progress.
-struct Run<'a, L> {
+struct Run<'a, L, S> {
     problem: &'a Problem<L>,
-    pair: &'static Pair,
     equations: Equations<'a, L>,
-    stepper: Stepper,
-    control: Control,
+    stepping: S,
     watch: Watch,
     states: Vec<State>,
     time: f64,
@@ -78,67 +150,52 @@ struct Run<'a, L> {
     h: f64,
     /// The longest step, for obstacles that move in harmonics.
     longest: f64,
+    growth: Growth,
     record: PolynomialRecord,
     events: Vec<Event>,
     /// Switches since time went on.
     at_once: usize,
 }
 
-impl<'a, L: Law> Run<'a, L> {
-    fn new(problem: &'a Problem<L>, pair: &'static Pair, tolerances: Tolerances) -> Self {
-        let mut states = vec![State::FIRST; problem.laws.len()];
-        let start = Moment {
-            time: 0.0,
-            displacement: &problem.displacement,
-            velocity: &problem.velocity,
-        };
-        instant::initial_states(problem, &mut states, start);
-        let mut equations = Equations::new(problem, Layout::new(problem));
-        equations.take_states(&states);
-        let layout = equations.layout.clone();
-        let mut numbers = vec![0.0; layout.size()];
-        let modes = layout.modes;
-        numbers[..modes].copy_from_slice(&problem.displacement);
-        numbers[modes..2 * modes].copy_from_slice(&problem.velocity);
-        for (law, state) in states.iter().enumerate() {
-            layout.remember(law, *state, &mut numbers);
-        }
+impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
+    fn new(mut stepping: S, states: Vec<State>, equations: Equations<'a, L>) -> Self {
+        let (problem, degree) = (equations.problem, stepping.degree());
+        let layout = &equations.layout;
         Self {
             problem,
-            pair,
-            control: Control::new(tolerances, first_step(problem), &numbers, &layout),
-            stepper: Stepper::new(pair, numbers),
-            watch: Watch::new(problem, pair.degree()),
+            watch: Watch::new(problem, degree),
+            growth: Growth::new(&layout.ledger(problem, 0.0, &states, stepping.numbers())),
+            record: PolynomialRecord::new(layout.clone(), degree),
+            stepping,
             states,
             time: 0.0,
             h: first_step(problem),
             longest: longest_step(problem),
-            record: PolynomialRecord::new(layout, pair.degree()),
             events: Vec::new(),
             at_once: 0,
             equations,
         }
     }
 
-    fn advance(&mut self, observer: Observer<'_>) -> Result<()> {
+    fn advance(mut self, observer: Observer<'_>) -> Result<(PolynomialRecord, Vec<Event>)> {
         let duration = self.problem.duration;
         while self.time < duration {
             // Loads may change their course at a knot.
             let limit = self.equations.loads.turn(self.time).min(duration);
-            self.stepper.start(self.time, &mut self.equations);
+            self.stepping.start(self.time, &mut self.equations);
             while self.time < limit {
-                if self
-                    .record
-                    .steps()
-                    .is_multiple_of(STEPS_BETWEEN_OBSERVATIONS)
-                {
+                let steps = self.record.steps();
+                if steps.is_multiple_of(STEPS_BETWEEN_OBSERVATIONS) {
                     observe(observer, self.time)?;
                 }
                 let h = self.good_step(limit)?;
                 self.finish(h, limit)?;
+                if steps.is_multiple_of(STEPS_BETWEEN_LOOKS) || self.time >= duration {
+                    self.check_growth()?;
+                }
             }
         }
-        Ok(())
+        Ok((self.record, self.events))
     }
 
     /// Tries steps until one is good enough; returns its width.
@@ -149,18 +206,15 @@ impl<'a, L: Law> Run<'a, L> {
             if LAST_STEP * h >= left {
                 h = left;
             }
-            self.stepper
-                .attempt(self.pair, self.time, h, &mut self.equations);
+            let attempt = (self.stepping).attempt(self.time, h, &mut self.equations);
             self.check_answers()?;
-            let Stepper { stages, end, .. } = &self.stepper;
-            let layout = &self.equations.layout;
-            let equations = (self.problem, layout);
-            let error = (self.control).error(self.pair, h, stages, end, equations);
-            if error <= 1.0 {
-                self.h = self.control.accept(self.pair, h, error, &self.stepper.end);
-                return Ok(h);
+            match attempt {
+                Attempt::Good(next) => {
+                    self.h = next;
+                    return Ok(h);
+                }
+                Attempt::Again(width) => h = width,
             }
-            h = self.control.reject(self.pair, h, error);
             if h < SMALLEST_STEP * self.time.max(left) {
                 return Err(Error::SmallStep {
                     time: self.time,
@@ -168,6 +222,22 @@ impl<'a, L: Law> Run<'a, L> {
                 });
             }
         }
+    }
+
+    /// Refuses a motion that blows up.
+    fn check_growth(&mut self) -> Result<()> {
+        let (layout, numbers) = (&self.equations.layout, self.stepping.numbers());
+        let ledger = layout.ledger(self.problem, self.time, &self.states, numbers);
+        let Some(ratio) = self.growth.sees(&ledger) else {
+            return Ok(());
+        };
+        let [q, v] = layout.motion(numbers);
+        let omega2 = self.problem.system.omega2();
+        Err(Error::RanAway {
+            time: self.time,
+            ratio,
+            mode: energy::largest_share(omega2, q, v),
+        })
     }
 
     /// Gives up where somebody outside could not tell a force.
@@ -183,36 +253,50 @@ impl<'a, L: Law> Run<'a, L> {
 
     /// Keeps a step up to the first switch in it, and switches.
     fn finish(&mut self, h: f64, limit: f64) -> Result<()> {
-        self.stepper
-            .continue_inside(self.pair, self.time, h, &mut self.equations);
-        let dense = self.stepper.dense();
-        let step = Step {
-            time: self.time,
-            h,
-            dense,
-        };
-        let Equations { layout, loads, .. } = &self.equations;
-        let crossing = (self.watch).first(self.problem, &self.states, layout, loads, step);
-        let theta = crossing.map_or(1.0, |crossing| crossing.theta);
-        let after = match crossing {
-            None if h == limit - self.time => limit,
-            _ => self.time + theta * h,
-        };
-        if after > self.time {
-            self.record.count_step();
-            self.record.add(self.time, h, after, dense, &self.states)?;
-            self.at_once = 0;
-        }
-        self.time = after;
-        match crossing {
-            None => self.stepper.go_on(),
-            Some(crossing) => {
-                self.stepper.stop_at(theta);
+        let start = self.time;
+        self.stepping.follow(start, h, &mut self.equations);
+        let count = self.stepping.pieces().count();
+        let width = h / count as f64;
+        for piece in 0..count {
+            let begun = start + piece as f64 * width;
+            let dense = self.stepping.pieces().dense(piece);
+            let step = Step {
+                time: begun,
+                h: width,
+                dense,
+            };
+            let Equations { layout, loads, .. } = &self.equations;
+            let crossing = (self.watch).first(self.problem, &self.states, layout, loads, step);
+            let after = match crossing {
+                None if piece + 1 < count => begun + width,
+                None if h == limit - start => limit,
+                None => start + h,
+                Some(crossing) => begun + crossing.theta * width,
+            };
+            if after > self.time {
+                self.record
+                    .add(self.time, width, after, dense, &self.states)?;
+                self.at_once = 0;
+            }
+            self.time = after;
+            if let Some(crossing) = crossing {
+                self.count_step(start);
+                self.stepping.stop_at(piece, crossing.theta);
                 self.switch(crossing)?;
-                self.stepper.start(self.time, &mut self.equations);
+                self.stepping.start(self.time, &mut self.equations);
+                return Ok(());
             }
         }
+        self.count_step(start);
+        self.stepping.go_on();
         Ok(())
+    }
+
+    /// Counts a step that time went on in.
+    fn count_step(&mut self, start: f64) {
+        if self.time > start {
+            self.record.count_step();
+        }
     }
 
     /// Switches a law whose guard has reached zero.
@@ -223,7 +307,7 @@ impl<'a, L: Law> Run<'a, L> {
             return Err(Error::EndlessSwitching { time: self.time });
         }
         let layout = &self.equations.layout;
-        let numbers = &mut self.stepper.start;
+        let numbers = self.stepping.numbers();
         let before = layout.state(law, self.states[law], numbers);
         let [displacement, velocity] = layout.motion(numbers);
         let moment = Moment {

@@ -148,6 +148,12 @@ pub(crate) fn sampled_states<L: Law>(
     v: &[f64],
 ) -> Vec<State> {
     (problem.laws.iter().zip(known))
-        .map(|(law, known)| law.sampled_state(known, &project(law, q), &project(law, v)))
+        .map(|(law, known)| {
+            // What is asked once a step has answered already.
+            if law.is_stepped() {
+                return known;
+            }
+            law.sampled_state(known, &project(law, q), &project(law, v))
+        })
         .collect()
 }

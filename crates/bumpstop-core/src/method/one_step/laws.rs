@@ -13,10 +13,11 @@
 //! 353-367, 1993.
 
 use super::elimination::solve;
+use super::impulses::{Struck, Touch};
 use crate::error::{Error, Result};
-use crate::law::{COORDINATES, Law, Local, Piece, State};
+use crate::law::{COORDINATES, Law, Local, State};
 use crate::method::instant::{self, Moment};
-use crate::number::Dual;
+use crate::method::polynomial_steps::slopes;
 use crate::problem::Problem;
 
 /// Iterations with states that follow the iterate, and with held ones.
@@ -25,15 +26,14 @@ const ITERATIONS: [usize; 2] = [20, 40];
 /// A residual counts as zero down to this many times the rounding of what it is made of.
 const ROUNDINGS: f64 = 64.0;
 
-/// Of a force, in an equation that tells a rate instead: stops of which one alone would do share
-/// what they push.
-const DEPENDENT: f64 = 1e-11;
+/// Sweeps over all forces, one after the other, where no iteration of them together ends.
+const SWEEPS: usize = 4000;
 
 /// How unit forces along the laws' coordinates move the modes by the end of a stage.
 #[derive(Debug)]
 pub(crate) struct Pushes {
     /// On positions and on velocities of the coordinates, a row a coordinate.
-    on: [Vec<f64>; 2],
+    pub(super) on: [Vec<f64>; 2],
 }
 
 impl Pushes {
@@ -72,9 +72,8 @@ pub(crate) struct Laws<'a, L> {
     /// One a coordinate, in N.
     pub forces: Vec<f64>,
     seen: Vec<State>,
-    /// Of each law with restitution that takes part: the rate of its distance before, and the
-    /// restitution.
-    touched: Vec<Option<(f64, f64)>>,
+    /// Of each law with restitution, how it takes part.
+    touched: Vec<Option<Touch>>,
     /// What forces are solved from: motion of the coordinates without them.
     free: [Vec<f64>; 2],
     iterate: Iterate,
@@ -82,16 +81,18 @@ pub(crate) struct Laws<'a, L> {
 
 /// Forces and motions during an iteration, and room for its equations.
 #[derive(Debug, Clone)]
-struct Iterate {
-    forces: Vec<f64>,
+pub(super) struct Iterate {
+    pub(super) forces: Vec<f64>,
     /// Positions and velocities, and the sizes of what they are summed of.
-    motion: [Vec<f64>; 2],
-    sizes: [Vec<f64>; 2],
-    residual: Vec<f64>,
+    pub(super) motion: [Vec<f64>; 2],
+    pub(super) sizes: [Vec<f64>; 2],
+    pub(super) residual: Vec<f64>,
     /// Derivatives of each force with respect to the coordinates of its own law.
-    slopes: [Vec<Local<f64>>; 2],
+    pub(super) slopes: [Vec<Local<f64>>; 2],
     /// What of each force itself is in its equation: all, or nothing where an impact tells a rate.
-    own: Vec<f64>,
+    pub(super) own: Vec<f64>,
+    /// By how much each force grows with the one before it, where friction follows a push.
+    pub(super) follows: Vec<f64>,
     /// The law of each coordinate.
     law: Vec<usize>,
     active: Vec<usize>,
@@ -135,6 +136,7 @@ impl<'a, L: Law> Laws<'a, L> {
                     vec![[0.0; COORDINATES]; count],
                 ],
                 own: vec![1.0; count],
+                follows: zeros(),
                 law,
                 active: Vec::with_capacity(count),
                 matrix: Vec::with_capacity(count * count),
@@ -160,14 +162,22 @@ impl<'a, L: Law> Laws<'a, L> {
     }
 
     /// Lets a law with restitution take part in a step, or not.
-    pub(crate) fn touch(&mut self, law: usize, how: Option<(f64, f64)>) {
+    pub(super) fn touch(&mut self, law: usize, how: Option<Touch>) {
         self.touched[law] = how;
     }
 
-    /// Takes the force of a law with restitution back, and the rate of its distance before.
-    pub(crate) fn release(&mut self, law: usize) -> Option<(f64, f64)> {
-        let force = std::mem::take(&mut self.forces[self.first[law]]);
-        self.touched[law].take().map(|(rate, _)| (force, rate))
+    /// Takes the forces of a law with restitution back, if it took part and pushed.
+    pub(super) fn release(&mut self, law: usize, pushes: &Pushes) -> Option<Struck> {
+        let (first, all) = (self.first[law], self.forces.len());
+        let own = &mut self.forces[first..][..self.problem.laws[law].rows().len()];
+        let struck = self.touched[law].take().map(|touch| Struck {
+            push: own[0],
+            rub: own.get(1).copied().unwrap_or(0.0),
+            speed: own[0] * pushes.on[1][first * all + first],
+            touch,
+        });
+        own.fill(0.0);
+        struck.filter(|struck| struck.push > 0.0)
     }
 
     /// Adds the modal forces of all laws, times a factor, to modal numbers.
@@ -206,19 +216,64 @@ impl<'a, L: Law> Laws<'a, L> {
                 self.hold();
             }
             for _ in 0..most {
-                self.go_to(pushes);
-                if self.look(held == 1, pushes) {
-                    self.forces.copy_from_slice(&self.iterate.forces);
-                    self.states.copy_from_slice(&self.seen);
+                if self.agrees(held == 1, pushes) {
                     return Ok(());
                 }
                 self.iterate.improve(pushes);
+            }
+        }
+        if self.touched.iter().any(Option::is_some) {
+            self.iterate.forces.copy_from_slice(&self.forces);
+            for _ in 0..SWEEPS {
+                if self.agrees(false, pushes) {
+                    return Ok(());
+                }
+                self.sweep(pushes);
             }
         }
         let unsure = self.iterate.residual.iter().enumerate();
         let worst = unsure.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
         let law = worst.map_or(0, |(coordinate, _)| self.iterate.law[coordinate]);
         Err(Error::NoContactForce { time, law })
+    }
+
+    /// Takes the forces of the iterate, and the states that go with them, if they are those that
+    /// the laws have in the motion that they make.
+    fn agrees(&mut self, held: bool, pushes: &Pushes) -> bool {
+        self.go_to(pushes);
+        let settled = self.look(held, pushes);
+        if settled {
+            self.forces.copy_from_slice(&self.iterate.forces);
+            self.states.copy_from_slice(&self.seen);
+        }
+        settled
+    }
+
+    /// Lets one force after the other follow from the motion that the others make: projected Gauss
+    /// and Seidel, which ends where stops share what each alone could push, or friction follows
+    /// pushes that it changes.
+    fn sweep(&mut self, pushes: &Pushes) {
+        let count = self.iterate.forces.len();
+        for (index, law) in self.problem.laws.iter().enumerate() {
+            let (first, own) = (self.first[index], law.rows().len());
+            let rigid = law.restitution().is_some();
+            for at in first..first + own {
+                let iterate = &mut self.iterate;
+                let before = iterate.forces[at];
+                let after = if rigid {
+                    let touch = self.touched[index].as_ref();
+                    touch.map_or(0.0, |touch| iterate.impulse(touch, first, at, pushes))
+                } else {
+                    before + iterate.residual[at] / (1.0 - iterate.gain(pushes, at, at))
+                };
+                iterate.forces[at] = after;
+                for (order, motion) in iterate.motion.iter_mut().enumerate() {
+                    for (i, to) in motion.iter_mut().enumerate() {
+                        *to += pushes.on[order][i * count + at] * (after - before);
+                    }
+                }
+            }
+        }
     }
 
     /// The motion under the forces of the iterate.
@@ -251,7 +306,10 @@ impl<'a, L: Law> Laws<'a, L> {
         let mut settled = true;
         for (index, law) in self.problem.laws.iter().enumerate() {
             if law.restitution().is_some() {
-                settled &= (self.iterate).strike(self.first[index], self.touched[index], pushes);
+                let (first, touched) = (self.first[index], self.touched[index].as_ref());
+                settled &= self
+                    .iterate
+                    .strike(first, law.rows().len(), touched, pushes);
                 continue;
             }
             let (first, count) = (self.first[index], law.rows().len());
@@ -302,37 +360,16 @@ impl<'a, L: Law> Laws<'a, L> {
 }
 
 impl Iterate {
-    /// Looks at the impulse of a law with restitution, as a force: `min(f, r w) = 0` for the rate
-    /// `w = u1 + e u` and some r > 0 (P. Alart, A. Curnier, A mixed formulation for frictional contact
-    /// problems, Computer Methods in Applied Mechanics and Engineering 92, 353-375, 1991); one that
-    /// takes no part has no force. Returns whether that holds.
-    fn strike(&mut self, at: usize, touched: Option<(f64, f64)>, pushes: &Pushes) -> bool {
-        let (count, force) = (self.forces.len(), self.forces[at]);
-        let gain = pushes.on[1][at * count + at];
-        self.slopes[1][at] = [0.0; COORDINATES];
-        self.own[at] = 1.0;
-        self.residual[at] = -force;
-        let Some((before, restitution)) = touched.filter(|_| gain > 0.0) else {
-            return force == 0.0;
-        };
-        let wanted = (self.motion[1][at] + restitution * before) / gain;
-        if force <= wanted {
-            return force == 0.0;
-        }
-        let size = force.abs() + (self.sizes[1][at] + restitution * before.abs()) / gain;
-        self.slopes[1][at][0] = -1.0 / gain;
-        self.own[at] = DEPENDENT;
-        self.residual[at] = -wanted;
-        wanted.abs() <= ROUNDINGS * f64::EPSILON * size
-    }
-
     /// Newton's step: `(1 - phi_x A - phi_v B) step = residual`. The forces of laws that do not
     /// answer to motions follow at once; the others are solved for together.
     fn improve(&mut self, pushes: &Pushes) {
         let count = self.forces.len();
         let answers = |slopes: &Vec<Local<f64>>, i: usize| slopes[i] != [0.0; COORDINATES];
+        let answers = |i: &usize| {
+            self.follows[*i] != 0.0 || self.slopes.iter().any(|slopes| answers(slopes, *i))
+        };
         self.active.clear();
-        (self.active).extend((0..count).filter(|i| self.slopes.iter().any(|s| answers(s, *i))));
+        self.active.extend((0..count).filter(answers));
         self.step.copy_from_slice(&self.residual);
         self.matrix.clear();
         for &i in &self.active {
@@ -366,7 +403,7 @@ impl Iterate {
         let own = self.law[first..]
             .iter()
             .take_while(|law| **law == self.law[i]);
-        let mut gain = 0.0;
+        let mut gain = if j + 1 == i { self.follows[i] } else { 0.0 };
         for c in 0..own.count() {
             for order in 0..2 {
                 gain += self.slopes[order][i][c] * pushes.on[order][(first + c) * count + j];
@@ -374,29 +411,6 @@ impl Iterate {
         }
         gain
     }
-}
-
-/// Derivatives of a law's forces with respect to its positions and velocities.
-fn slopes<L: Law>(
-    law: &L,
-    state: State,
-    motion: [Local<f64>; 2],
-) -> [[Local<f64>; COORDINATES]; 2] {
-    let mut slopes = [[[0.0; COORDINATES]; COORDINATES]; 2];
-    if law.piece(state) == Some(Piece::FREE) {
-        return slopes;
-    }
-    for (order, slopes) in slopes.iter_mut().enumerate() {
-        for c in 0..law.rows().len() {
-            let mut dual = motion.map(|local| local.map(|value| Dual { value, slope: 0.0 }));
-            dual[order][c].slope = 1.0;
-            let force = law.force(state, &dual[0], &dual[1]);
-            for (row, force) in slopes.iter_mut().zip(force) {
-                row[c] = force.slope;
-            }
-        }
-    }
-    slopes
 }
 
 fn add(factor: f64, row: &[f64], to: &mut [f64]) {

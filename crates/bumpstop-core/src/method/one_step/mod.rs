@@ -11,6 +11,7 @@ mod elimination;
 pub mod exponential;
 pub mod generalized_alpha;
 pub mod hht;
+mod impulses;
 mod laws;
 pub mod moreau_jean;
 pub mod newmark;

@@ -5,7 +5,9 @@
 //! loads and other laws, weighed in the same way. A stop takes part in a step that starts within
 //! half a step of it, `d + h d' / 2 <= 0`. Its impulse P and the rate of its distance then obey
 //! Newton's law of impact, `0 <= P`, `0 <= u1 + e u`, one of them zero, which is solved for together with
-//! the forces of the other laws. A structure at rest is pressed by its weight in each step.
+//! the forces of the other laws; so is friction along the obstacle, by Coulomb's law between the
+//! impulses and the rates at the end ([`super::impulses`]). A structure at rest is pressed by its
+//! weight in each step.
 //!
 //! First order where there are impacts, second between them with theta = 1/2, which keeps the
 //! energy of a linear structure; more of theta takes from it. Any step is stable.
@@ -14,6 +16,7 @@
 //! Mechanics and Engineering 177, 329-349, 1999; M. Jean, The non-smooth contact dynamics method, the
 //! same, 235-257.
 
+use super::impulses::Touch;
 use super::laws::{Laws, Pushes};
 use super::structure::{Modes, Structure, each_scaled};
 use super::trace::{End, Trace};
@@ -63,9 +66,13 @@ struct Stepping<'a, L> {
     free: [Vec<f64>; 2],
     forces: Vec<f64>,
     percussions: Vec<Percussion>,
-    /// Whether each stop was struck in the step before.
-    struck: Vec<bool>,
+    /// How far each stop may seem off, by rounding, that was struck in the steps before.
+    struck: Vec<Option<f64>>,
 }
+
+/// A stop that was struck is still in touch down to this many times the rounding of what its
+/// impulse made of the distance.
+const ROUNDINGS: f64 = 64.0;
 
 /// Runs a problem from t = 0 to the end.
 pub(super) fn run<'a, L: Law>(
@@ -114,7 +121,7 @@ impl<'a, L: Law> Stepping<'a, L> {
             free: [zeros(), zeros()],
             forces: zeros(),
             percussions: Vec::with_capacity(problem.laws.len()),
-            struck: vec![false; problem.laws.len()],
+            struck: vec![None; problem.laws.len()],
         })
     }
 
@@ -126,8 +133,13 @@ impl<'a, L: Law> Stepping<'a, L> {
             };
             let [position, velocity] = self.problem.local(index, time, &motion.q, &motion.v);
             let (distance, rate) = law.distance(&position, &velocity);
-            let near = distance + 0.5 * self.h * rate <= 0.0;
-            laws.touch(index, near.then_some((rate, restitution)));
+            let near = distance + 0.5 * self.h * rate <= self.struck[index].unwrap_or(0.0);
+            let touch = Touch {
+                before: [rate, velocity[1]],
+                restitution,
+                friction: law.rigid_friction(),
+            };
+            laws.touch(index, near.then_some(touch));
         }
     }
 
@@ -138,29 +150,27 @@ impl<'a, L: Law> Stepping<'a, L> {
             if law.restitution().is_none() {
                 continue;
             }
-            let struck = match laws.release(index) {
-                Some((force, before)) if force > 0.0 => {
-                    let [position, velocity] =
-                        self.problem.local(index, time, &motion.q, &motion.v);
-                    self.percussions.push(Percussion {
-                        law: index,
-                        time,
-                        h: self.h,
-                        impulse: self.theta * self.h * force,
-                        before,
-                        after: law.distance(&position, &velocity).1,
-                    });
-                    true
-                }
-                _ => false,
+            let rested = self.struck[index].take();
+            laws.states[index] = RigidStop::OPEN;
+            let Some(struck) = laws.release(index, &self.pushes) else {
+                continue;
             };
-            let rests = struck && self.struck[index];
-            laws.states[index] = if rests {
-                RigidStop::RESTING
-            } else {
-                RigidStop::OPEN
-            };
-            self.struck[index] = struck;
+            let [position, velocity] = self.problem.local(index, time, &motion.q, &motion.v);
+            let (part, before) = (self.theta * self.h, struck.touch.before);
+            self.percussions.push(Percussion {
+                law: index,
+                time,
+                h: self.h,
+                impulse: part * struck.push,
+                before: before[0],
+                after: law.distance(&position, &velocity).1,
+                rubbed: -0.5 * part * struck.rub * (before[1] + velocity[1]),
+            });
+            if rested.is_some() {
+                laws.states[index] = RigidStop::resting(self.theta * struck.rub);
+            }
+            let rounding = ROUNDINGS * f64::EPSILON * self.h * struck.speed;
+            self.struck[index] = Some(rested.unwrap_or(0.0) + rounding);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::partition::Groups;
 use super::secular::Coupling;
+use super::stiff::{Push, STIFFER, Stiff};
 use crate::law::{COORDINATES, Law, Local, Piece, State};
 use crate::number::Complex;
 use crate::problem::Problem;
@@ -14,6 +15,8 @@ pub(crate) struct Coupled {
     pub stiffness: Mat<f64>,
     pub damping: Mat<f64>,
     pub force: Mat<f64>,
+    /// The same, where laws are so stiff that they stand apart from the structure.
+    pub stiff: Option<Box<Stiff>>,
 }
 
 /// The modes that laws in the given states push, feel or hold, and those that matrices couple.
@@ -67,6 +70,7 @@ impl Coupled {
             stiffness: diagonal(&groups.omega2),
             damping: diagonal(&groups.damping),
             force: Mat::from_fn(groups.len(), 1, |r, _| force[r]),
+            stiff: None,
         };
         let matrices = [
             (system.circulatory(), &mut coupled.stiffness),
@@ -77,35 +81,71 @@ impl Coupled {
                 add_matrix(to, groups, matrix);
             }
         }
-        for (law, piece) in pieces(problem, states) {
-            let rows: Vec<Vec<f64>> = law.rows().iter().map(|row| groups.row(row)).collect();
-            if rows.iter().flatten().all(|factor| *factor == 0.0) {
-                continue;
-            }
-            add_product(&mut coupled.stiffness, &rows, &piece.stiffness);
-            add_product(&mut coupled.damping, &rows, &piece.damping);
-            for (row, constant) in rows.iter().zip(piece.constant) {
-                for (i, factor) in row.iter().enumerate() {
-                    coupled.force[(i, 0)] += factor * constant;
-                }
-            }
+        let pushes: Vec<Push> = (pieces(problem, states))
+            .map(|(law, piece)| Push::new(law.rows().iter().map(|row| groups.row(row)), piece))
+            .filter(|push| push.rows.iter().flatten().any(|factor| *factor != 0.0))
+            .collect();
+        coupled.stiff = coupled.apart(&pushes, problem.duration);
+        for push in &pushes {
+            coupled.add(push);
         }
         coupled
     }
 
-    /// Those of the combinations that one spring and damper couples, under no force.
-    pub(crate) fn by_one(coupling: &Coupling) -> Self {
-        let n = coupling.omega2.len();
-        let phi = &coupling.phi;
-        let entry = |own: &[f64], factor: f64, r: usize, c: usize| {
-            factor * phi[r] * phi[c] + if r == c { own[r] } else { 0.0 }
-        };
-        let (k, c) = (coupling.stiffness, coupling.stop_damping);
-        Self {
-            stiffness: Mat::from_fn(n, n, |row, column| entry(&coupling.omega2, k, row, column)),
-            damping: Mat::from_fn(n, n, |row, column| entry(&coupling.damping, c, row, column)),
-            force: Mat::zeros(n, 1),
+    /// What the equations of a structure become when stiff laws among some stand apart, if there
+    /// are such.
+    fn apart(&self, pushes: &[Push], duration: f64) -> Option<Box<Stiff>> {
+        let least = (1.0 / duration).powi(2);
+        let limit = STIFFER * self.stiffness.norm_max().max(least);
+        if pushes.iter().all(|push| push.size() <= limit) {
+            return None;
         }
+        let mut soft = Self {
+            stiffness: self.stiffness.clone(),
+            damping: self.damping.clone(),
+            force: self.force.clone(),
+            stiff: None,
+        };
+        let (stiff, others): (Vec<&Push>, Vec<&Push>) =
+            pushes.iter().partition(|push| push.size() > limit);
+        for push in others {
+            soft.add(push);
+        }
+        Stiff::new(&soft, &stiff)
+    }
+
+    pub(super) fn add(&mut self, push: &Push) {
+        add_product(&mut self.stiffness, &push.rows, &push.piece.stiffness);
+        add_product(&mut self.damping, &push.rows, &push.piece.damping);
+        for (row, constant) in push.rows.iter().zip(push.piece.constant) {
+            for (i, factor) in row.iter().enumerate() {
+                self.force[(i, 0)] += factor * constant;
+            }
+        }
+    }
+
+    /// Those of the combinations that one spring and damper couples, under forces and the constant
+    /// one of the law.
+    pub(crate) fn by_one(
+        coupling: &Coupling,
+        forces: &[f64],
+        constant: f64,
+        duration: f64,
+    ) -> Self {
+        let mut coupled = Self {
+            stiffness: diagonal(&coupling.omega2),
+            damping: diagonal(&coupling.damping),
+            force: Mat::from_fn(forces.len(), 1, |i, _| forces[i]),
+            stiff: None,
+        };
+        let mut piece = Piece::FREE;
+        piece.constant[0] = constant;
+        piece.stiffness[0][0] = coupling.stiffness;
+        piece.damping[0][0] = coupling.stop_damping;
+        let push = Push::new(std::iter::once(coupling.phi.clone()), piece);
+        coupled.stiff = coupled.apart(std::slice::from_ref(&push), duration);
+        coupled.add(&push);
+        coupled
     }
 }
 
@@ -123,18 +163,26 @@ impl Coupled {
     /// `(K + i omega C - omega^2)^-1 p`
     pub(crate) fn harmonic(&self, omega: f64, forces: &[Complex<f64>]) -> Vec<Complex<f64>> {
         let n = forces.len();
-        let dynamic = Mat::from_fn(n, n, |r, c| {
+        let right = Mat::from_fn(n, 1, |i, _| c64::new(forces[i].re, forces[i].im));
+        let solution = match &self.stiff {
+            Some(stiff) => stiff.harmonic(omega, &right),
+            None => self.dynamic(omega).full_piv_lu().solve(&right),
+        };
+        (0..n)
+            .map(|i| Complex::new(solution[(i, 0)].re, solution[(i, 0)].im))
+            .collect()
+    }
+
+    /// `K + i omega C - omega^2`
+    fn dynamic(&self, omega: f64) -> Mat<c64> {
+        let n = self.stiffness.nrows();
+        Mat::from_fn(n, n, |r, c| {
             let inertia = if r == c { omega * omega } else { 0.0 };
             c64::new(
                 self.stiffness[(r, c)] - inertia,
                 omega * self.damping[(r, c)],
             )
-        });
-        let right = Mat::from_fn(n, 1, |i, _| c64::new(forces[i].re, forces[i].im));
-        let solution = dynamic.full_piv_lu().solve(&right);
-        (0..n)
-            .map(|i| Complex::new(solution[(i, 0)].re, solution[(i, 0)].im))
-            .collect()
+        })
     }
 }
 

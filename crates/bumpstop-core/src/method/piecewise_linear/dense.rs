@@ -9,7 +9,9 @@ use super::principal::Principal;
 use super::rows::set_entry;
 use super::secular::Coupling;
 use super::spectrum::Spectrum;
-use super::splitting::{Part, Split, split};
+use super::splitting::{Part, Split, rest_beside, split};
+use super::stiff::Stiff;
+use super::subspaces::{Subspace, subspaces};
 use crate::error::Result;
 use crate::law::{Law, Piece, State};
 use crate::number::{Complex, LANES};
@@ -82,10 +84,7 @@ pub(crate) fn set_coupled(
     constant: f64,
     duration: f64,
 ) -> Result<()> {
-    let mut coupled = Coupled::by_one(coupling);
-    coupled.force = Mat::from_fn(forces.len(), 1, |i, _| {
-        forces[i] + constant * coupling.phi[i]
-    });
+    let coupled = Coupled::by_one(coupling, forces, constant, duration);
     coupled.solve_into(spectrum, duration)
 }
 
@@ -103,26 +102,58 @@ pub(super) const SLOW: f64 = 0.7;
 impl Coupled {
     /// Exponents, clusters, shapes, left vectors and the position at rest.
     fn solve_into(&self, spectrum: &mut Spectrum, duration: f64) -> Result<()> {
+        if let Some(stiff) = &self.stiff {
+            let principal = Principal::apart(stiff, duration);
+            if let Some(parted) = subspaces(&principal.state, &stiff.fast()) {
+                return self.solve_apart(stiff, &principal, &parted, spectrum, duration);
+            }
+        }
         let principal = Principal::new(self, duration)?;
         let mut split = split(&principal.state, SLOW / duration)?;
         if self.is_conservative() {
             split.keep_energy();
         }
-        let drives = self.force.norm_max() > 0.0;
-        let slow = split.parts.iter().find(|part| drives && part.is_slow);
+        let slow = split.slow().filter(|_| self.force.norm_max() > 0.0);
         let rest = match slow {
-            Some(part) => self.rest_beside(&principal, &split, part),
-            None => {
-                let rest = self.statics(&self.force);
-                (
-                    (0..rest.nrows()).map(|i| rest[(i, 0)]).collect(),
-                    Vec::new(),
-                )
+            Some(part) => {
+                let state = rest_beside(&principal.state, &principal.force, &split, part);
+                let [position, velocity] = principal.motion(&state);
+                (column(&position), column(&velocity))
             }
+            None => (column(&self.statics(&self.force)), Vec::new()),
         };
         (spectrum.at_rest, spectrum.rate_at_rest) = rest;
         Layout::new(&split.parts, slow.map(|part| part.first))
             .fill(spectrum, &principal, &split, duration);
+        Ok(())
+    }
+
+    /// The same where stiff laws stand apart: of the motions that are fast because of them, and of
+    /// the others.
+    fn solve_apart(
+        &self,
+        stiff: &Stiff,
+        principal: &Principal,
+        [fast, slow]: &[Subspace; 2],
+        spectrum: &mut Spectrum,
+        duration: f64,
+    ) -> Result<()> {
+        let keeps_energy = self.is_conservative();
+        let fast = fast.motions(&principal.force, SLOW / duration, keeps_energy)?;
+        let slow = slow.motions(&principal.force, SLOW / duration, keeps_energy)?;
+        let motions = fast.beside(slow);
+        let [position, velocity] = principal.motion(&motions.rest);
+        spectrum.at_rest = column(&(position + &stiff.back * &stiff.rest));
+        spectrum.rate_at_rest = match motions.driven {
+            Some(_) => column(&velocity),
+            None => Vec::new(),
+        };
+        Layout::new(&motions.split.parts, motions.driven).fill(
+            spectrum,
+            principal,
+            &motions.split,
+            duration,
+        );
         Ok(())
     }
 
@@ -142,11 +173,14 @@ impl Coupled {
     /// The position at rest under constant forces; `None` where some motion that they push has no
     /// stiffness.
     pub(crate) fn rest(&self, forces: &Mat<f64>) -> Option<Vec<f64>> {
+        if let Some(stiff) = &self.stiff {
+            return stiff.rest(forces);
+        }
         let rest = self.statics(forces);
         let lack = &self.stiffness * &rest - forces;
         // Written so that a lack which is not a number is one too large.
         let balanced = lack.norm_max() <= UNBALANCED * forces.norm_max();
-        balanced.then(|| (0..rest.nrows()).map(|i| rest[(i, 0)]).collect())
+        balanced.then(|| column(&rest))
     }
 
     fn statics(&self, forces: &Mat<f64>) -> Mat<f64> {
@@ -155,34 +189,10 @@ impl Coupled {
         }
         self.stiffness.full_piv_lu().solve(forces)
     }
+}
 
-    /// The constant part of the motion beside slow exponents, which the forces drive: with these
-    /// moved away from zero, `A + kappa X Y`, the state matrix has an inverse.
-    fn rest_beside(
-        &self,
-        principal: &Principal,
-        split: &Split,
-        slow: &Part,
-    ) -> (Vec<f64>, Vec<f64>) {
-        let (n, count) = (principal.state.nrows(), slow.generator.nrows());
-        let right = split.right.subcols(slow.first, count);
-        let left = split.left.subrows(slow.first, count);
-        let force = Mat::from_fn(n, 1, |i, _| c64::new(principal.force[(i, 0)], 0.0));
-        let other = &force - right * (left * &force);
-        let away = principal.state.norm_max();
-        let slow_part = right * left;
-        let moved = Mat::from_fn(n, n, |r, c| {
-            principal.state[(r, c)] - away * slow_part[(r, c)].re
-        });
-        let right_side = Mat::from_fn(n, 1, |i, _| -other[(i, 0)].re);
-        let solution = moved.full_piv_lu().solve(&right_side);
-        let state = Mat::from_fn(n, 1, |i, _| c64::new(solution[(i, 0)], 0.0));
-        let column = |values: Mat<c64>| (0..n / 2).map(|i| values[(i, 0)].re).collect();
-        (
-            column(principal.positions(&state)),
-            column(principal.velocities(&state)),
-        )
-    }
+fn column(matrix: &Mat<f64>) -> Vec<f64> {
+    (0..matrix.nrows()).map(|i| matrix[(i, 0)]).collect()
 }
 
 /// Where the columns of each part go: exponents first, clusters behind.

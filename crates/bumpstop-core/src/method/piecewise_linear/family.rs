@@ -116,7 +116,7 @@ impl Family {
     /// `Re sum_j shape_gj z_j` of four groups from one on, at four instants: for each the groups as
     /// [`Family::sums`] gives them. Shapes are read once for all.
     #[inline(always)]
-    pub(crate) fn positions<I: Instructions>(
+    pub(crate) fn four_instants<I: Instructions>(
         &self,
         first: usize,
         z: [&[ComplexBlock]; HALF],
@@ -142,13 +142,13 @@ impl Family {
                 }
             }
         }
-        let mut positions = [[0.0; HALF]; HALF];
-        for (pair, to) in sums.chunks_exact(2).zip(positions.chunks_exact_mut(2)) {
+        let mut totals = [[0.0; HALF]; HALF];
+        for (pair, to) in sums.chunks_exact(2).zip(totals.chunks_exact_mut(2)) {
             let [[a, b, c, d], [e, f, g, h]] = [pair[0], pair[1]];
-            let totals = Lanes::totals([a, b, c, d, e, f, g, h]);
-            to.as_flattened_mut().copy_from_slice(&totals);
+            let of_pair = Lanes::totals([a, b, c, d, e, f, g, h]);
+            to.as_flattened_mut().copy_from_slice(&of_pair);
         }
-        positions
+        totals
     }
 
     /// The entry of a row in a column counted from the first of all exponents; zero beside the

@@ -111,6 +111,7 @@ impl Left {
             stiffness: z.transpose() * &coupled.stiffness * z,
             damping: z.transpose() * &coupled.damping * z,
             force: z.transpose() * (&coupled.force - &coupled.stiffness * at),
+            stiff: None,
         }
     }
 }

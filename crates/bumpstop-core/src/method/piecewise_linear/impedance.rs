@@ -133,7 +133,7 @@ mod tests {
             coupling.push(omega2, damping, phi);
         }
         let one = Impedance::OneLaw(&coupling);
-        let other = Impedance::Dense(Box::new(Coupled::by_one(&coupling)));
+        let other = Impedance::Dense(Box::new(Coupled::by_one(&coupling, &[0.0; 3], 0.0, 1.0)));
         let forces = [1.0, -2.0, 0.5];
         let close = |a: f64, b: f64, size: f64| assert!((a - b).abs() < 1e-12 * size, "{a} {b}");
         let (a, b) = (one.rest(&forces).unwrap(), other.rest(&forces).unwrap());

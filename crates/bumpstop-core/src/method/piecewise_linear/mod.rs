@@ -44,13 +44,18 @@ mod single_mode;
 mod singles;
 mod spectrum;
 mod splitting;
+mod stiff;
+mod subspaces;
 mod tables;
 mod view;
 mod works;
 
 pub use enclosure::Enclosure;
 pub use jet::{Jet, Jets, Verdict};
+pub(crate) use poles::{Eigenvalue, Nearest};
 pub use record::PhaseRecord;
+pub(crate) use rows::ComplexBlock;
+pub(crate) use secular::middle_way;
 
 use super::instant::{self, Moment};
 use super::{Observer, check_linear, observe};

@@ -91,6 +91,22 @@ impl Workspace {
         self.rate.resize(blocks, ComplexBlock::ZERO);
     }
 
+    /// The exponentials (0) or their rates (1).
+    #[inline(always)]
+    pub(super) fn turned(&self, derivative: usize) -> &[ComplexBlock] {
+        if derivative == 0 { &self.z } else { &self.rate }
+    }
+
+    /// Positions (0) or velocities (1) of the groups.
+    #[inline(always)]
+    pub(super) fn groups(&mut self, derivative: usize) -> &mut [f64] {
+        if derivative == 0 {
+            &mut self.position
+        } else {
+            &mut self.velocity
+        }
+    }
+
     /// A state less what follows the loads at their onset.
     fn less_loads(
         &mut self,
@@ -303,12 +319,14 @@ impl Phases {
         self.complete::<I>(phase, t, work, q, v);
     }
 
-    /// Modal displacements at up to four instants after the start of a phase, a row each, the same
-    /// as [`Phases::motion`] gives them; `unused` is room for velocities.
+    /// Modal displacements (`derivative` 0) or velocities (1) at up to four instants after the start
+    /// of a phase, a row each, the same as [`Phases::motion`] gives them; `unused` is room for the
+    /// other of the two.
     #[inline(always)]
-    pub(crate) fn displacements<I: Instructions>(
+    pub(crate) fn motion_of_four<I: Instructions>(
         &self,
         phase: Phase,
+        derivative: usize,
         instants: &[f64],
         works: &mut [Workspace; HALF],
         rows: &mut [f64],
@@ -320,9 +338,14 @@ impl Phases {
             work.position.resize(spectrum.combinations, 0.0);
             work.velocity.resize(spectrum.combinations, 0.0);
         }
-        spectrum.group_positions::<I>(works);
-        for ((t, work), q) in (instants.iter().zip(works)).zip(rows.chunks_mut(unused.len())) {
-            self.complete::<I>(phase, *t, work, q, unused);
+        spectrum.groups_of_four::<I>(derivative, works);
+        for ((t, work), row) in (instants.iter().zip(works)).zip(rows.chunks_mut(unused.len())) {
+            let [q, v] = if derivative == 0 {
+                [row, &mut *unused]
+            } else {
+                [&mut *unused, row]
+            };
+            self.complete::<I>(phase, *t, work, q, v);
         }
     }
 

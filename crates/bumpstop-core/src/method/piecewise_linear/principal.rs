@@ -5,6 +5,7 @@
 //! are orthonormal, and how far they are from it tells what damping and circulatory forces do.
 
 use super::coupled::Coupled;
+use super::stiff::Stiff;
 use crate::eigen::{SymmetricEigen, symmetric_eigen, symmetric_eigenvalues};
 use crate::error::Result;
 use faer::{Mat, c64};
@@ -21,6 +22,8 @@ const APART: f64 = 1e-5;
 /// The state `(s x, x')` with groups `y = V x`.
 pub(crate) struct Principal {
     axes: Mat<f64>,
+    /// The inverse of the axes, where it is not their transpose.
+    inverse: Option<Mat<f64>>,
     scales: Vec<f64>,
     /// `z' = A z + b`
     pub state: Mat<f64>,
@@ -36,25 +39,24 @@ impl Principal {
         } else {
             on_axes(&coupled.stiffness)?
         };
-        let scales: Vec<f64> = (0..n)
-            .map(|i| stiffness[(i, i)].abs().sqrt().max(1.0 / duration))
-            .collect();
         let damping = axes.transpose() * &coupled.damping * &axes;
-        let state = Mat::from_fn(2 * n, 2 * n, |r, c| match (r < n, c < n) {
-            (true, true) => 0.0,
-            (true, false) if r + n == c => scales[r],
-            (true, false) => 0.0,
-            (false, true) => -stiffness[(r - n, c)] / scales[c],
-            (false, false) => -damping[(r - n, c - n)],
-        });
-        let push = axes.transpose() * &coupled.force;
-        let force = Mat::from_fn(2 * n, 1, |r, _| if r < n { 0.0 } else { push[(r - n, 0)] });
-        Ok(Self {
-            axes,
-            scales,
-            state,
-            force,
-        })
+        let force = axes.transpose() * &coupled.force;
+        let own = Own {
+            stiffness: &stiffness,
+            damping: &damping,
+            force: &force,
+        };
+        Ok(own.principal(axes, None, duration))
+    }
+
+    /// The coordinates in which stiff laws stand apart.
+    pub(crate) fn apart(stiff: &Stiff, duration: f64) -> Self {
+        let own = Own {
+            stiffness: &stiff.stiffness,
+            damping: &stiff.damping,
+            force: &stiff.force,
+        };
+        own.principal(stiff.back.clone(), Some(stiff.to.clone()), duration)
     }
 
     /// Positions of the groups in states, one a column.
@@ -64,24 +66,64 @@ impl Principal {
         self.complex_axes() * scaled
     }
 
-    /// Velocities of the groups in states.
-    pub(crate) fn velocities(&self, states: &Mat<c64>) -> Mat<c64> {
+    /// Positions and velocities of the groups in one state.
+    pub(crate) fn motion(&self, state: &Mat<f64>) -> [Mat<f64>; 2] {
         let n = self.scales.len();
-        self.complex_axes() * states.subrows(n, n)
+        let scaled = Mat::from_fn(n, 1, |r, _| state[(r, 0)] / self.scales[r]);
+        [&self.axes * scaled, &self.axes * state.subrows(n, n)]
     }
 
     /// Rows that take positions and velocities of the groups, from rows that take states.
     pub(crate) fn left(&self, rows: &Mat<c64>) -> (Mat<c64>, Mat<c64>) {
         let n = self.scales.len();
         let scaled = Mat::from_fn(rows.nrows(), n, |r, c| rows[(r, c)] * self.scales[c]);
-        let axes = self.complex_axes();
-        let back = axes.transpose();
-        (scaled * back, rows.subcols(n, n) * back)
+        let inverse = self.complex_inverse();
+        (scaled * &inverse, rows.subcols(n, n) * &inverse)
     }
 
     fn complex_axes(&self) -> Mat<c64> {
         let n = self.scales.len();
         Mat::from_fn(n, n, |r, c| c64::new(self.axes[(r, c)], 0.0))
+    }
+
+    fn complex_inverse(&self) -> Mat<c64> {
+        let n = self.scales.len();
+        Mat::from_fn(n, n, |r, c| match &self.inverse {
+            Some(inverse) => c64::new(inverse[(r, c)], 0.0),
+            None => c64::new(self.axes[(c, r)], 0.0),
+        })
+    }
+}
+
+/// The equations along coordinates of their own.
+struct Own<'a> {
+    stiffness: &'a Mat<f64>,
+    damping: &'a Mat<f64>,
+    force: &'a Mat<f64>,
+}
+
+impl Own<'_> {
+    fn principal(&self, axes: Mat<f64>, inverse: Option<Mat<f64>>, duration: f64) -> Principal {
+        let n = axes.nrows();
+        let (stiffness, damping, push) = (self.stiffness, self.damping, self.force);
+        let scales: Vec<f64> = (0..n)
+            .map(|i| stiffness[(i, i)].abs().sqrt().max(1.0 / duration))
+            .collect();
+        let state = Mat::from_fn(2 * n, 2 * n, |r, c| match (r < n, c < n) {
+            (true, true) => 0.0,
+            (true, false) if r + n == c => scales[r],
+            (true, false) => 0.0,
+            (false, true) => -stiffness[(r - n, c)] / scales[c],
+            (false, false) => -damping[(r - n, c - n)],
+        });
+        let force = Mat::from_fn(2 * n, 1, |r, _| if r < n { 0.0 } else { push[(r - n, 0)] });
+        Principal {
+            axes,
+            inverse,
+            scales,
+            state,
+            force,
+        }
     }
 }
 

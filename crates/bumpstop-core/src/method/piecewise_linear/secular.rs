@@ -400,7 +400,7 @@ impl<I: Instructions> DampingSums<I> {
 /// The zero of `constant + low/(a - y) + high/(b - y)` between a and b; `fallback` where the
 /// formula leaves the interval.
 #[inline(always)]
-fn middle_way<I: Instructions>(
+pub(crate) fn middle_way<I: Instructions>(
     constant: Lanes<I>,
     low: Lanes<I>,
     high: Lanes<I>,

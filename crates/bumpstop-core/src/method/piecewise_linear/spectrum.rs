@@ -482,18 +482,23 @@ impl Spectrum {
         }
     }
 
-    /// `Re sum_j shape_gj z_j` for all groups, of the exponents at four instants.
+    /// `Re sum_j shape_gj z_j` for all groups, of the exponents at four instants, or of their
+    /// rates.
     #[inline(always)]
-    pub(crate) fn group_positions<I: Instructions>(&self, works: &mut [Workspace; HALF]) {
+    pub(crate) fn groups_of_four<I: Instructions>(
+        &self,
+        derivative: usize,
+        works: &mut [Workspace; HALF],
+    ) {
         for family in self.families() {
             for first in (0..family.groups).step_by(HALF) {
                 let [a, b, c, d] = &*works;
-                let z = [&a.z, &b.z, &c.z, &d.z].map(|z| &z[family.blocks()]);
-                let positions = family.positions::<I>(first, z);
+                let z = [a, b, c, d].map(|work| &work.turned(derivative)[family.blocks()]);
+                let totals = family.four_instants::<I>(first, z);
                 let own = family.first_group + first..family.first_group + family.groups;
-                for (work, positions) in works.iter_mut().zip(positions) {
-                    for (to, position) in work.position[own.clone()].iter_mut().zip(positions) {
-                        *to = position;
+                for (work, totals) in works.iter_mut().zip(totals) {
+                    for (to, total) in work.groups(derivative)[own.clone()].iter_mut().zip(totals) {
+                        *to = total;
                     }
                 }
             }

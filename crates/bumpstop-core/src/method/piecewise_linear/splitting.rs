@@ -65,6 +65,11 @@ struct Sets {
 const NOTHING: f64 = 1e-11;
 
 impl Split {
+    /// The motions that are slow.
+    pub(crate) fn slow(&self) -> Option<&Part> {
+        self.parts.iter().find(|part| part.is_slow)
+    }
+
     /// Takes growth and decay away that are rounding: where energy is conserved, the exponents of
     /// oscillations have no real part, and over ten thousand impacts that of rounding would be felt.
     pub(crate) fn keep_energy(&mut self) {
@@ -76,6 +81,26 @@ impl Split {
             }
         }
     }
+}
+
+/// The constant part of the motion `x' = A x + p` beside slow exponents, which the forces drive:
+/// with these moved away from zero, `A + kappa X Y`, the matrix has an inverse.
+pub(crate) fn rest_beside(
+    matrix: &Mat<f64>,
+    force: &Mat<f64>,
+    split: &Split,
+    slow: &Part,
+) -> Mat<f64> {
+    let (n, count) = (matrix.nrows(), slow.generator.nrows());
+    let right = split.right.subcols(slow.first, count);
+    let left = split.left.subrows(slow.first, count);
+    let force = Mat::from_fn(n, 1, |i, _| c64::new(force[(i, 0)], 0.0));
+    let other = &force - right * (left * &force);
+    let away = matrix.norm_max();
+    let slow_part = right * left;
+    let moved = Mat::from_fn(n, n, |r, c| matrix[(r, c)] - away * slow_part[(r, c)].re);
+    let right_side = Mat::from_fn(n, 1, |i, _| -other[(i, 0)].re);
+    moved.full_piv_lu().solve(&right_side)
 }
 
 /// Splits a real matrix; exponents below `slow` belong together.

@@ -4,6 +4,7 @@
 //! equations, and the works of the energy ledger, each integrated from its own power.
 
 use super::loads::Loads;
+use super::slopes::slopes;
 use crate::energy::{self, Ledger};
 use crate::law::{Law, Local, Piece, State, project};
 use crate::problem::Problem;
@@ -248,6 +249,28 @@ impl<'a, L: Law> Equations<'a, L> {
                 memories[at - 2 * modes..][..MEMORY].copy_from_slice(&rates);
             }
         }
+    }
+
+    /// How the laws answer to motions in their present states: bounds of the stiffness and of the
+    /// damping that they add to any motion of the modes, in rad2/s2 and rad/s.
+    pub(crate) fn answers(&self, time: f64, numbers: &[f64]) -> [f64; 2] {
+        let motion = self.layout.motion(numbers);
+        let mut sums = [0.0; 2];
+        for (index, law) in self.problem.laws.iter().enumerate() {
+            let (position, velocity, _) = self.local(index, time, motion);
+            let state = self.layout.state(index, self.states[index], numbers);
+            let answers = slopes(law, state, [position, velocity]);
+            let length = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let lengths: Local<f64> =
+                std::array::from_fn(|c| law.rows().get(c).map_or(0.0, |row| length(row)));
+            for (sum, answers) in sums.iter_mut().zip(answers) {
+                for (row, i) in answers.iter().zip(lengths) {
+                    let row = row.iter().zip(lengths);
+                    *sum += row.map(|(slope, j)| (slope * i * j).abs()).sum::<f64>();
+                }
+            }
+        }
+        sums
     }
 
     /// What stiffness, damping and the matrices that couple modes do.

@@ -14,6 +14,7 @@ mod equations;
 mod loads;
 mod percussion;
 mod record;
+mod slopes;
 mod watch;
 
 pub use record::PolynomialRecord;
@@ -21,4 +22,5 @@ pub use record::PolynomialRecord;
 pub(crate) use dense::{Dense, cubic_rates, write_cubic};
 pub(crate) use equations::{Equations, Layout, TOLD};
 pub(crate) use percussion::Percussion;
+pub(crate) use slopes::slopes;
 pub(crate) use watch::{Crossing, Step, Watch, longest_step};

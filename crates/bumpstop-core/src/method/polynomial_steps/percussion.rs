@@ -14,6 +14,8 @@ pub(crate) struct Percussion {
     /// Rate of the distance at both ends of the step, in m/s.
     pub before: f64,
     pub after: f64,
+    /// Energy that friction took, in J.
+    pub rubbed: f64,
 }
 
 /// Two ends of steps are the same where they differ by less than this part of one.
@@ -22,7 +24,7 @@ const SAME: f64 = 0.5;
 impl Percussion {
     /// Energy taken from the structure, in J: the rate is linear in the impulse that grows.
     pub(crate) fn loss(&self) -> f64 {
-        -0.5 * self.impulse * (self.before + self.after)
+        self.rubbed - 0.5 * self.impulse * (self.before + self.after)
     }
 
     /// Whether it goes on where another one ends.

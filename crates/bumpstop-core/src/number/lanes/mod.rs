@@ -7,6 +7,8 @@ mod x86;
 
 pub use instructions::{Instructions, Vectorised, dispatch};
 pub use plain::Plain;
+#[cfg(all(test, target_arch = "x86_64"))]
+pub(crate) use x86::by_each;
 
 use super::{Bits, Number, elementary};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

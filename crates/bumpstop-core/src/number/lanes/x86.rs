@@ -28,6 +28,22 @@ pub(super) fn dispatch<W: Vectorised>(work: W) -> W::Output {
     }
 }
 
+/// What some work gives with plain arithmetic and with each set of instructions that this machine
+/// has.
+#[cfg(test)]
+pub(crate) fn by_each<W: Vectorised>(work: impl Fn() -> W) -> Vec<W::Output> {
+    let mut found = vec![work().run::<Plain>()];
+    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        // SAFETY: both features were just detected.
+        found.push(unsafe { with_avx2(work()) });
+    }
+    if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+        // SAFETY: both features were just detected.
+        found.push(unsafe { with_avx512(work()) });
+    }
+    found
+}
+
 #[target_feature(enable = "avx512f,avx512dq")]
 fn with_avx512<W: Vectorised>(work: W) -> W::Output {
     work.run::<Avx512>()

@@ -93,7 +93,8 @@ def _stop(name: str, table: StopTable, folder: Path) -> Law:
     if table.restitution is not None:
         from bumpstop.laws import RigidStop
 
-        _refuse(given, (*ELASTIC, *POWER, "buckling"), "a rigid stop", "restitution")
+        elastic = [key for key in ELASTIC if key not in ("friction", "sliding")]
+        _refuse(given, (*elastic, *POWER, "buckling"), "a rigid stop", "restitution")
         return RigidStop(name, **given)
     if table.stiffness is None:
         hint = "a rigid stop has a restitution instead"

@@ -43,14 +43,19 @@ class RunTable(Table):
         description="Weight of the end of a step in the moreau_jean method, 1/2 to 1, 1/2 where "
         "left out",
     )
+    points_per_period: PositiveNumber | None = Field(
+        default=None,
+        description="Steps of the adaptive_central_difference method in a period of the fastest "
+        "visible motion, 10 to 1e7, 50 where left out",
+    )
     rtol: PositiveNumber | None = Field(
         default=None,
-        description="Relative tolerance of the adaptive methods, 1e-8 where left out; the others "
+        description="Relative tolerance of the Runge-Kutta pairs, 1e-8 where left out; the others "
         "do not use it",
     )
     atol: Ratio | None = Field(
         default=None,
-        description="Absolute tolerance of the adaptive methods, in m and m/s of the modal motion",
+        description="Absolute tolerance of the Runge-Kutta pairs, in m and m/s of the modal motion",
     )
     sample: PositiveTime | None = Field(
         default=None,

@@ -116,7 +116,7 @@ class StopTable(Table):
     restitution: Ratio | None = Field(
         default=None,
         description="Part of the speed that a rigid stop gives back, from 0 to 1; such a stop "
-        "has neither stiffness nor damping nor friction",
+        "has neither stiffness nor damping; with friction the moreau_jean method alone takes it",
     )
     resolution: Ratio | None = Field(
         default=None,

@@ -2,8 +2,9 @@
 
 function start() {
   document.documentElement.classList.add("js");
-  const { themes, figures, motions, modes } = readData();
-  const plots = new Plots(figures, themes);
+  const { themes, figures, motions, modes, runs } = readData();
+  const chooser = runs ? new Runs(document.getElementById("run"), decode(runs)) : null;
+  const plots = new Plots(figures, themes, (place) => chooser?.watch(place));
   const players = Object.entries(motions).map(
     ([name, scene]) => new Motion(document.getElementById(name), decode(scene)),
   );

@@ -1,8 +1,6 @@
 // The modes: a thumbnail of each shape in the table, and the chosen one drawn large.
 
 const SWING_SECONDS = 2;
-const RADIANS_A_PIXEL = 0.01;
-const RADIANS_A_KEY = Math.PI / 24;
 
 class Modes {
   constructor(root, scene) {
@@ -24,7 +22,7 @@ class Modes {
       });
     });
     this.button.addEventListener("click", () => this.setSwinging(!this.swinging));
-    if (this.table) this.letTurn(this.stage.element);
+    if (this.table) letTurn(this.stage.element, (...by) => this.turn(...by));
     this.drawThumbnails();
     new ResizeObserver(() => this.layOut()).observe(root);
     this.choose(0);
@@ -41,20 +39,6 @@ class Modes {
     stage.magnification = extent > 0 ? 0.13 * extent : 1;
     stage.reach(this.allModes());
     return stage;
-  }
-
-  letTurn(element) {
-    element.addEventListener("pointerdown", (event) => element.setPointerCapture(event.pointerId));
-    element.addEventListener("pointermove", (event) => {
-      if (!element.hasPointerCapture(event.pointerId)) return;
-      this.turn(event.movementX * RADIANS_A_PIXEL, event.movementY * RADIANS_A_PIXEL);
-    });
-    const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-    element.addEventListener("keydown", (event) => {
-      if (!(event.key in turns)) return;
-      event.preventDefault();
-      this.turn(...turns[event.key].map((step) => step * RADIANS_A_KEY));
-    });
   }
 
   turn(azimuth, tilt) {

@@ -3,28 +3,34 @@
 // The slider's thumb is this wide; the time line is inset by half of it, so that they line up.
 const THUMB = 18;
 const FLASHES = 20;
+// Labels closer than this, in pixels, would lie over each other.
+const NEAR = 14;
 
 class Motion {
   constructor(root, scene) {
     this.root = root;
-    this.scene = scene;
+    this.table = scene.vertical ? new Turntable(scene) : null;
+    this.scene = this.table ? this.table.onPaper() : scene;
     this.last = scene.frames;
     this.duration = scene.duration;
     this.modes = scene.modal.length / (scene.frames + 1);
     this.frame = 0;
     this.playing = false;
     this.slowdown = scene.paces.choices[scene.paces.first].slowdown;
-    this.largestForce = scene.forces.reduce((most, force) => Math.max(most, force), 0);
+    this.largestForce = Math.max(...scene.laws.map(({ forces }) => largestOf(forces)), 0);
     const find = (name) => root.querySelector(`[data-part=${name}]`);
     this.button = find("play");
     this.slider = find("slider");
     this.readout = find("readout");
     this.strip = find("strip");
     this.stripHeight = root.classList.contains("upright") ? 150 : 84;
-    this.stage = new Stage(find("stage"), scene);
+    this.stage = new Stage(find("stage"), this.scene);
     this.stage.magnification = scene.magnifications.choices[scene.magnifications.first];
     this.stage.reach(this.someMotions());
+    const orbits = find("orbits");
+    this.orbits = scene.laws.flatMap((law, i) => (law.orbit ? [new Orbit(law, i, orbits)] : []));
     this.setUpControls(find("speed"), find("magnify"), find("magnified"));
+    if (this.table) letTurn(this.stage.element, (...by) => this.turn(...by));
     new ResizeObserver(() => this.layOut()).observe(root);
     this.layOut();
   }
@@ -68,6 +74,14 @@ class Motion {
     this.strip.addEventListener("pointermove", (event) => {
       if (event.buttons) seekAt(event);
     });
+  }
+
+  turn(azimuth, tilt) {
+    this.table.turn(azimuth, tilt);
+    this.scene = this.table.onPaper();
+    this.stage.scene = this.scene;
+    this.stage.reach(this.someMotions());
+    this.layOut();
   }
 
   play() {
@@ -117,13 +131,13 @@ class Motion {
     return modal;
   }
 
-  forceAt(stop, frame) {
-    return this.between(this.scene.forces, stop * (this.last + 1), 1, frame);
+  forceAt(law, frame) {
+    return this.between(this.scene.laws[law].forces, 0, 1, frame);
   }
 
   // As the table of impacts says, which a force does not: it is zero at the instant of closing.
   isClosed(stop, time) {
-    return this.scene.contacts[stop].some(
+    return this.scene.laws[stop].contacts.some(
       ([start, end]) => start <= time && (time < end || end === this.duration),
     );
   }
@@ -151,10 +165,13 @@ class Motion {
   }
 
   hardestFrame() {
-    const { forces, frames } = this.scene;
-    let best = 0;
-    for (let i = 1; i < forces.length; i += 1) if (forces[i] > forces[best]) best = i;
-    return best % (frames + 1);
+    let [best, most] = [0, 0];
+    for (const { forces } of this.scene.laws) {
+      forces.forEach((force, frame) => {
+        if (Math.abs(force) > most) [best, most] = [frame, Math.abs(force)];
+      });
+    }
+    return best;
   }
 
   layOut() {
@@ -162,6 +179,7 @@ class Motion {
     if (width === 0) return;
     this.stage.fit(width, this.scene.lines.length ? 400 : 320);
     this.drawStage();
+    this.orbits.forEach((orbit) => orbit.layOut(this, Math.min(width, 240)));
     this.drawStrip();
     this.show();
   }
@@ -172,7 +190,9 @@ class Motion {
     const fixed = svg("g", {}, stage.element);
     stage.drawFixedParts(fixed);
     this.drawGhosts(fixed);
-    this.stops = scene.stops.map((stop) => this.drawStop(stop));
+    const drawings = makeDrawings(scene, stage);
+    this.springs = drawings.slice(0, scene.springs.length);
+    this.laws = drawings.slice(scene.springs.length);
     this.lines = scene.lines.map(() => svg("path", { class: "beam" }, stage.element));
     this.nodes = scene.nodes.map(({ name, point }) => {
       const body = scene.bodies.includes(point);
@@ -181,8 +201,8 @@ class Motion {
       dot.dataset.node = name;
       return dot;
     });
-    this.labels = scene.nodes.map(({ name, point }) => this.drawLabel(name, point));
-    this.arrows = scene.stops.map(() => svg("path", { class: "force" }, stage.element));
+    this.labels = this.sharedNames().map(({ names, point }) => this.drawLabel(names, point));
+    this.laws.forEach((drawing) => drawing.addArrow());
   }
 
   // Where the structure is at equal intervals, as in a photograph under a strobe lamp.
@@ -195,111 +215,44 @@ class Motion {
     }
   }
 
+  // Nodes that rest at one place share a label, which is that of a body if one is there.
+  sharedNames() {
+    const shared = [];
+    const { nodes, bodies } = this.scene;
+    for (const { name, point } of nodes) {
+      const here = this.stage.rest(point);
+      const known = shared.find(({ point: other }) => {
+        const there = this.stage.rest(other);
+        return Math.hypot(here[0] - there[0], here[1] - there[1]) < NEAR;
+      });
+      if (!known) shared.push({ names: name, point });
+      else {
+        known.names += `, ${name}`;
+        if (bodies.includes(point)) known.point = point;
+      }
+    }
+    return shared;
+  }
+
   // A beam's labels stay where its nodes are at rest; a body's go with it.
   drawLabel(name, point) {
-    const stopped = this.scene.stops.some((stop) => stop.point === point);
-    const sideways = this.scene.stops.some(
-      (stop) => stop.point === point && Math.abs(stop.normal[0]) > 0.5,
-    );
+    const acting = this.scene.laws.filter((law) => law.point === point);
+    const stopped = acting.length > 0;
+    const sideways = acting.some((law) => Math.abs(law.normal[0]) > 0.5);
     const label = svg("text", { class: "label" }, this.stage.element);
     label.textContent = name;
     if (this.scene.bodies.includes(point)) {
       // Clear of the stop and of the arrow of its force.
       const [right, down] = sideways ? [-4, -BODY_RADIUS - 7] : [BODY_RADIUS + 8, 4];
-      return { follow: ([x, y]) => set(label, { x: x + right, y: y + down }) };
+      return { point, follow: ([x, y]) => set(label, { x: x + right, y: y + down }) };
     }
     const [x, y] = this.stage.rest(point);
     // Beside the arrow of the force, and beside a post, not on them.
     if (stopped) set(label, { x: x + 12, y: y - 10 });
     else if (this.stage.onlyPostsMeetAt(point)) set(label, { x: x + 14, y: y - 8 });
     else set(label, { x, y: y - 12, "text-anchor": "middle" });
-    return { follow: () => {} };
-  }
-
-  drawStop(stop) {
-    const { stage } = this;
-    const length = Math.hypot(...stop.normal);
-    // Seen from its front, a stop has no side to draw.
-    if (length < 0.2) return null;
-    const normal = [stop.normal[0] / length, -stop.normal[1] / length];
-    const reach = this.scene.bodies.includes(stop.point) ? BODY_RADIUS : BEAM_HALF_WIDTH;
-    const pixels = stage.scale * stage.magnification * length;
-    const rest = stage.rest(stop.point);
-    const away = (distance) => [
-      rest[0] - normal[0] * distance,
-      rest[1] - normal[1] * distance,
-    ];
-    const surface = stop.gap * pixels + reach;
-    const ground = surface + stop.deepest * pixels + SHORTEST_SPRING;
-    const group = svg("g", { class: "stop" }, stage.element);
-    group.dataset.stop = stop.name;
-    svg("path", { class: "ground", d: groundPath(away(ground), normal) }, group);
-    this.drawStopLabel(group, stop.label, normal, away(ground), away(surface));
-    return {
-      group,
-      normal,
-      away,
-      surface,
-      ground,
-      pixels,
-      spring: svg("path", { class: "spring" }, group),
-      plate: svg("path", { class: "plate" }, group),
-    };
-  }
-
-  // Beside the ground of a spring that stands, under one that lies.
-  drawStopLabel(group, text, normal, foot, surface) {
-    const label = svg("text", { class: "label" }, group);
-    label.textContent = text;
-    const left = foot[0] > this.stage.width / 2;
-    if (Math.abs(normal[1]) > 0.5) {
-      set(label, { x: foot[0] + (left ? -26 : 26), y: foot[1], "text-anchor": left ? "end" : "start" });
-    } else {
-      set(label, { x: (foot[0] + surface[0]) / 2, y: foot[1] + 38, "text-anchor": "middle" });
-    }
     keepInside(label, this.stage.width);
-  }
-
-  showStop(index, drawn, modal) {
-    if (!drawn) return;
-    const { stage, scene } = this;
-    const stop = scene.stops[index];
-    const force = this.forceAt(index, this.frame);
-    const [u, v] = stage.displacement(stop.point, modal);
-    const along = u * stop.normal[0] + v * stop.normal[1];
-    const squared = stop.normal[0] ** 2 + stop.normal[1] ** 2;
-    const distance = stop.gap + along / squared;
-    const closed = this.isClosed(index, this.timeAt(this.frame));
-    const pressed = closed ? Math.max(0, -distance) * drawn.pixels : 0;
-    const at = drawn.away(drawn.surface + pressed);
-    const across = [-drawn.normal[1] * 14, drawn.normal[0] * 14];
-    set(drawn.spring, { d: springPath(at, drawn.away(drawn.ground)) });
-    set(drawn.plate, {
-      d: pathThrough([
-        [at[0] - across[0], at[1] - across[1]],
-        [at[0] + across[0], at[1] + across[1]],
-      ]),
-    });
-    drawn.group.dataset.contact = closed ? "closed" : "open";
-    this.showForce(this.arrows[index], drawn, at, force / this.largestForce);
-  }
-
-  // The force on the structure, as an arrow that ends at the far side of what it pushes.
-  showForce(arrow, { normal, surface }, at, share) {
-    // Nothing but rounding, or a stop that never pushes for a while.
-    if (!(share > 1e-9)) {
-      arrow.setAttribute("d", "");
-      return;
-    }
-    const start = 2 * (this.scene.lines.length ? BEAM_HALF_WIDTH : BODY_RADIUS) + 3;
-    const length = 14 + 38 * share;
-    const point = (distance, side) => [
-      at[0] + normal[0] * distance - normal[1] * side,
-      at[1] + normal[1] * distance + normal[0] * side,
-    ];
-    const tip = start + length;
-    const head = pathThrough([point(tip - 8, -5), point(tip, 0), point(tip - 8, 5)]);
-    arrow.setAttribute("d", pathThrough([point(start, 0), point(tip, 0)]) + head);
+    return { point, follow: () => {} };
   }
 
   drawStrip() {
@@ -333,7 +286,8 @@ class Motion {
   // Stretches of time in which any stop is closed.
   closedSpans() {
     const spans = [];
-    for (const [start, end] of this.scene.contacts.flat().sort(([one], [other]) => one - other)) {
+    const contacts = this.scene.laws.flatMap((law) => law.contacts);
+    for (const [start, end] of contacts.sort(([one], [other]) => one - other)) {
       const before = spans.at(-1);
       if (before && start <= before[1]) before[1] = Math.max(before[1], end);
       else spans.push([start, end]);
@@ -350,9 +304,11 @@ class Motion {
     scene.nodes.forEach(({ point }, i) => {
       const [cx, cy] = stage.place(point, modal);
       set(this.nodes[i], { cx, cy });
-      this.labels[i].follow([cx, cy]);
     });
-    this.stops.forEach((drawn, i) => this.showStop(i, drawn, modal));
+    this.labels.forEach(({ point, follow }) => follow(stage.place(point, modal)));
+    this.springs.forEach((drawing) => drawing.show(this, -1, modal));
+    this.laws.forEach((drawing, i) => drawing.show(this, i, modal));
+    this.orbits.forEach((orbit) => orbit.show(this));
     const value = this.between(scene.watched.values, 0, 1, frame);
     const x = this.stripX(frame);
     set(this.cursor, { x1: x, x2: x });
@@ -366,8 +322,8 @@ class Motion {
     const [clock, clockUnit] = scene.timeScale;
     const [factor, unit] = scene.watched.scale;
     const [newton, newtonUnit] = scene.forceScale;
-    const forces = scene.stops.map((_, stop) => this.forceAt(stop, frame));
-    const closed = scene.stops.some((_, stop) => this.isClosed(stop, time));
+    const forces = scene.laws.map((_, law) => this.forceAt(law, frame));
+    const closed = scene.laws.some((_, law) => this.isClosed(law, time));
     this.watchedRange ??= scene.watched.values.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
     const told = {
       time: `${steady(time * clock, this.duration * clock)} ${clockUnit}`,
@@ -375,7 +331,8 @@ class Motion {
       contact: closed ? "in contact" : "free",
     };
     if (forces.length) {
-      const force = steady(Math.max(...forces) * newton, this.largestForce * newton);
+      const largest = forces.reduce((a, b) => (Math.abs(b) > Math.abs(a) ? b : a), 0);
+      const force = steady(largest * newton, this.largestForce * newton);
       told.force = `${force} ${newtonUnit}`;
     }
     for (const [name, text] of Object.entries(told)) {
@@ -387,4 +344,8 @@ class Motion {
     this.slider.value = String(Math.round(frame));
     this.slider.setAttribute("aria-valuetext", Object.values(told).join(", "));
   }
+}
+
+function largestOf(values) {
+  return values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
 }

@@ -9,8 +9,17 @@ const plotConfig = {
   modeBarButtons: [["toImage", "zoom2d", "pan2d", "resetScale2d"]],
 };
 
+// plotly is most of the page; it is read when the first figure comes into view, not before.
+function loadPlotly() {
+  if (window.Plotly) return;
+  const script = document.createElement("script");
+  script.textContent = document.getElementById("plotly").textContent;
+  document.head.append(script);
+}
+
 class Plots {
-  constructor(figures, themes) {
+  constructor(figures, themes, onDrawn) {
+    this.onDrawn = onDrawn;
     this.figures = figures;
     this.themes = themes;
     this.places = [...document.querySelectorAll("[data-figure]")];
@@ -30,10 +39,12 @@ class Plots {
   }
 
   draw(place) {
+    loadPlotly();
     const { data, layout } = recoloured(this.figures[place.dataset.figure], this.themes);
     const fitted = { ...layout, ...this.fit(place) };
     if (window.matchMedia("(pointer: coarse)").matches) fitted.dragmode = false;
     Plotly.react(place, data, fitted, plotConfig);
+    if (!this.drawn.has(place)) this.onDrawn(place);
     this.drawn.add(place);
   }
 

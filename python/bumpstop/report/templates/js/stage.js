@@ -67,7 +67,7 @@ class Stage {
   }
 
   box() {
-    const { points, stops = [] } = this.scene;
+    const { points } = this.scene;
     const box = [Infinity, -Infinity, Infinity, -Infinity];
     const include = (x, y) => {
       box[0] = Math.min(box[0], x);
@@ -81,20 +81,37 @@ class Stage {
       include(x + this.magnification * range[0], y + this.magnification * range[2]);
       include(x + this.magnification * range[1], y + this.magnification * range[3]);
     }
-    for (const stop of stops) {
-      const depth = this.magnification * (stop.gap + stop.deepest);
-      include(
-        points[2 * stop.point] - depth * stop.normal[0],
-        points[2 * stop.point + 1] - depth * stop.normal[1],
-      );
+    for (const law of this.scene.laws ?? []) {
+      const [x, y] = [points[2 * law.point], points[2 * law.point + 1]];
+      for (const [right, up] of this.farthest(law)) {
+        include(x + this.magnification * right, y + this.magnification * up);
+      }
     }
     return box;
+  }
+
+  // Places of an obstacle that must be seen, from its node at rest.
+  farthest(law) {
+    if (law.kind === "plane") return [law.normal.map((part) => law.lowest * part)];
+    return law.kind === "round" ? rowsOf(law.outline, this.dimensions).map((row) => this.flat(row)) : [];
+  }
+
+  // How many components vectors of the scene have, and what is seen of one on paper.
+  get dimensions() {
+    return this.scene.flat ? 3 : 2;
+  }
+
+  flat(vector) {
+    return this.scene.flat ? this.scene.flat(vector) : vector;
   }
 
   padding() {
     const pad = { left: 40, right: 40, top: 28, bottom: 34 };
     const below = SHORTEST_SPRING + BODY_RADIUS + 16;
-    for (const { normal } of this.scene.stops ?? []) {
+    const held = [...(this.scene.laws ?? []), ...(this.scene.springs ?? [])];
+    // What stands on the ground needs room for it.
+    for (const { normal, kind, other } of held) {
+      if (kind === "round" || other >= 0) continue;
       // Room for the label under a spring that lies.
       if (Math.abs(normal[0]) > 0.5) pad.bottom = Math.max(pad.bottom, 52);
       if (normal[0] > 0.3) pad.left = Math.max(pad.left, below);
@@ -122,6 +139,15 @@ class Stage {
       points[2 * point] + this.magnification * u,
       points[2 * point + 1] + this.magnification * v,
     );
+  }
+
+  // How far a point goes against a direction at most, in pixels.
+  retreat(point, direction) {
+    const [x, y] = direction;
+    const length = Math.hypot(x, y) || 1;
+    const [left, right, down, up] = this.ranges ? this.ranges[point] : [0, 0, 0, 0];
+    const least = Math.min(x * left, x * right) + Math.min(y * down, y * up);
+    return (-least / length) * this.scale * this.magnification;
   }
 
   linePath([first, count], modal) {

@@ -2,6 +2,8 @@
 
 const LOWEST = -Math.PI / 2;
 const HIGHEST = Math.PI / 2;
+const RADIANS_A_PIXEL = 0.01;
+const RADIANS_A_KEY = Math.PI / 24;
 
 class Turntable {
   // `scene` has points, shapes and normals to the right, up and towards the reader.
@@ -36,11 +38,17 @@ class Turntable {
         }
       }
     });
-    const supports = scene.supports.map((support) => ({
-      ...support,
-      normal: [dot(right, support.normal), dot(up, support.normal)],
-    }));
-    return { ...scene, points, shapes, supports };
+    const flat = (vector) => [dot(right, vector), dot(up, vector)];
+    const across = (part) => ({ ...part, normal: flat(part.normal) });
+    return {
+      ...scene,
+      points,
+      shapes,
+      flat,
+      supports: scene.supports.map(across),
+      laws: (scene.laws ?? []).map(across),
+      springs: (scene.springs ?? []).map(across),
+    };
   }
 
   // Right and up of the paper, in the components of the scene.
@@ -48,6 +56,21 @@ class Turntable {
     const axes = [[1, 0, 0], [0, Math.cos(this.tilt), -Math.sin(this.tilt)]];
     return axes.map((axis) => turned(axis, this.scene.vertical, -this.azimuth));
   }
+}
+
+// Let a drawing be turned by dragging it, and by the arrow keys: `turn` takes azimuth and tilt.
+function letTurn(element, turn) {
+  element.addEventListener("pointerdown", (event) => element.setPointerCapture(event.pointerId));
+  element.addEventListener("pointermove", (event) => {
+    if (!element.hasPointerCapture(event.pointerId)) return;
+    turn(event.movementX * RADIANS_A_PIXEL, event.movementY * RADIANS_A_PIXEL);
+  });
+  const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+  element.addEventListener("keydown", (event) => {
+    if (!(event.key in turns)) return;
+    event.preventDefault();
+    turn(...turns[event.key].map((step) => step * RADIANS_A_KEY));
+  });
 }
 
 function dot(a, b) {

@@ -17,6 +17,7 @@ pub(super) struct ContactReader<'a, L> {
     record: &'a PhaseRecord,
     problem: &'a Problem<L>,
     law: usize,
+    reads_forces: bool,
     first_view: usize,
     walk: Walk,
     distance: Signal,
@@ -49,7 +50,9 @@ impl<L: Law> Vectorised for ContactReader<'_, L> {
             let speed = self.watch_distance::<I>(*phase);
             if contact {
                 let impact = current.get_or_insert_with(|| Impact::starting(phase.start, -speed));
-                self.add_phase::<I>(*phase, impact);
+                if self.reads_forces {
+                    self.add_phase::<I>(*phase, impact);
+                }
             } else if let Some(mut impact) = current.take() {
                 impact.end = phase.start;
                 impact.opening_speed = speed;
@@ -75,10 +78,19 @@ impl<'a, L: Law> ContactReader<'a, L> {
             record,
             problem,
             law,
+            reads_forces: true,
             first_view: before.iter().map(|l| l.rows().len()).sum(),
             walk,
             distance: Signal::default(),
             force: Signal::default(),
+        }
+    }
+
+    /// Reads instants and speeds alone.
+    pub(super) fn without_forces(self) -> Self {
+        Self {
+            reads_forces: false,
+            ..self
         }
     }
 

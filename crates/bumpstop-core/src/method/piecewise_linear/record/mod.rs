@@ -11,7 +11,7 @@ use super::family::HALF;
 use super::phase::{Phase, Phases, Workspace};
 use crate::energy::{self, Ledger};
 use crate::impacts::Impact;
-use crate::law::{Law, State};
+use crate::law::{COORDINATES, Law, Local, State};
 use crate::number::{Instructions, Vectorised, dispatch};
 use crate::problem::Problem;
 use crate::rigid::Blow;
@@ -38,6 +38,9 @@ struct Motion {
     q: Vec<f64>,
     v: Vec<f64>,
 }
+
+/// Instants at which what laws see is held in memory.
+const TOGETHER: usize = 4096;
 
 /// Phases that are tried one by one before all are searched.
 const NEARBY: usize = 4;
@@ -110,13 +113,46 @@ impl PhaseRecord {
         });
     }
 
-    /// Modal displacements at each time, one row behind the other.
-    pub(crate) fn displacements(&self, times: &[f64], modes: usize) -> Vec<f64> {
-        dispatch(Displacements {
+    /// Modal displacements (`derivative` 0) or velocities (1) at each time, one row behind the
+    /// other.
+    pub(crate) fn motion(&self, derivative: usize, times: &[f64], modes: usize) -> Vec<f64> {
+        dispatch(Rows {
             record: self,
+            derivative,
             times,
             modes,
         })
+    }
+
+    /// Shows what a law sees at each time: position and velocity along its rows, and its state.
+    pub(crate) fn visit_law(
+        &self,
+        law: usize,
+        rows: &[Vec<f64>],
+        times: &[f64],
+        mut see: impl FnMut(f64, [Local<f64>; 2], State),
+    ) {
+        let mut number = 0;
+        for times in times.chunks(TOGETHER) {
+            let columns = [0, 1].map(|order| {
+                let column = |row: &Vec<f64>| self.project(row, times, order);
+                rows.iter().map(column).collect::<Vec<_>>()
+            });
+            for (i, time) in times.iter().enumerate() {
+                let mut local = [[0.0; COORDINATES]; 2];
+                for (local, columns) in local.iter_mut().zip(&columns) {
+                    for (to, column) in local.iter_mut().zip(columns) {
+                        *to = column[i];
+                    }
+                }
+                number = self.phase_from(number, *time);
+                see(
+                    *time,
+                    local,
+                    self.phases.states(self.phases.list[number])[law],
+                );
+            }
+        }
     }
 
     /// A time derivative (0, 1 or 2) of one linear combination of the modal coordinates.
@@ -181,6 +217,11 @@ impl PhaseRecord {
     pub(crate) fn impacts<L: Law>(&self, problem: &Problem<L>, law: usize) -> Vec<Impact> {
         dispatch(ContactReader::new(self, problem, law))
     }
+
+    /// The same without forces.
+    pub(crate) fn contacts<L: Law>(&self, problem: &Problem<L>, law: usize) -> Vec<Impact> {
+        dispatch(ContactReader::new(self, problem, law).without_forces())
+    }
 }
 
 /// Is shown a time, modal displacement, velocity and law states.
@@ -208,13 +249,14 @@ impl Vectorised for Visit<'_, '_> {
     }
 }
 
-struct Displacements<'a> {
+struct Rows<'a> {
     record: &'a PhaseRecord,
+    derivative: usize,
     times: &'a [f64],
     modes: usize,
 }
 
-impl Vectorised for Displacements<'_> {
+impl Vectorised for Rows<'_> {
     type Output = Vec<f64>;
     #[inline(always)]
     fn run<I: Instructions>(self) -> Vec<f64> {
@@ -236,7 +278,8 @@ impl Vectorised for Displacements<'_> {
                 count += 1;
             }
             let (own, others) = to.split_at_mut(count * self.modes);
-            phases.displacements::<I>(phase, &since[..count], &mut works, own, &mut unused);
+            let since = &since[..count];
+            phases.motion_of_four::<I>(phase, self.derivative, since, &mut works, own, &mut unused);
             (left, to) = (&left[count..], others);
         }
         rows

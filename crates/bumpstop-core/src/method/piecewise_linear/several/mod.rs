@@ -108,15 +108,15 @@ impl Springs {
             return None;
         }
         if let Some(starts) = neighbour.and_then(|neighbour| neighbour.starts(self, slow))
-            && let Some(solution) = self.search(&starts)
+            && let Some(solution) = self.search(starts)
         {
             return Some(solution);
         }
-        self.search(&self.starts(slow)?)
+        self.search(self.starts(slow)?)
     }
 
     /// The roots from where the search begins; `None` where it fails or finds one twice.
-    fn search(&self, starts: &[Start]) -> Option<Solution> {
+    fn search(&self, starts: Vec<Start>) -> Option<Solution> {
         let width = self.modes().div_ceil(LANES);
         let mut vectors = Rows::zeros(3 * self.modes(), width);
         let lambda = dispatch(Search::new(self, starts, &mut vectors))?;
@@ -342,5 +342,43 @@ mod tests {
         assert!(springs.solve(0.0, None).is_some());
         assert!(springs.solve(1.5, None).is_some());
         assert!(springs.solve(5.0, None).is_none());
+    }
+
+    /// A heavy stop beside a spring that hardly pushes: found from the spring's, the fast root is
+    /// first told by a mode that takes a ten-millionth of it.
+    #[test]
+    fn roots_are_told_by_modes_that_take_part() {
+        let omega2 = [146.6, 342.2, 419.0, 892.5, 2144.8];
+        let rows = [
+            vec![-1.161, -0.255, 0.610, 0.863, -0.946],
+            vec![0.820, 0.275, -0.286, 1.346, 0.0],
+        ];
+        let none = [0.0; 5];
+        let both = Springs::new(
+            &omega2,
+            &none,
+            &rows,
+            vec![1.342, 50504.0],
+            vec![0.0, 49.17],
+        );
+        let lesser = Springs::new(&omega2, &none, &rows[..1], vec![1.342], vec![0.0]);
+        let (before, vectors) = lesser.solve(0.0, None).unwrap();
+        let family = Family {
+            groups: omega2.len(),
+            vectors: Arc::new(vectors),
+            ..Family::default()
+        };
+        let neighbour = Neighbour {
+            lambda: &before,
+            family: &family,
+            spring: 1,
+        };
+        let (lambda, vectors) = both.solve(0.0, Some(neighbour)).unwrap();
+        for j in 0..omega2.len() {
+            let psi: Vec<_> = (0..omega2.len())
+                .map(|i| entry(vectors.row(i), j))
+                .collect();
+            assert!(both.residual(entry(&lambda, j), &psi) < 1e-13);
+        }
     }
 }

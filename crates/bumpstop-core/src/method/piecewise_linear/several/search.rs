@@ -2,7 +2,7 @@
 
 use super::{Springs, Start, TILE};
 use crate::method::piecewise_linear::poles::{Eigenvalue, Nearest};
-use crate::method::piecewise_linear::rows::{ComplexBlock, RealBlock, Rows};
+use crate::method::piecewise_linear::rows::{ComplexBlock, RealBlock, Rows, entry};
 use crate::number::{Complex, Instructions, LANES, Lanes, Number, Vectorised};
 
 /// Newton steps allowed.
@@ -23,6 +23,10 @@ const LAST_STEP: f64 = 1e-11;
 
 /// What is lacking of the forces after elimination, relative to them, above which it failed.
 const LACK: f64 = 1e-5;
+
+/// The size of a shape, which is one in the mode that tells its root, above which another mode
+/// tells it: elimination of that one loses as many digits as it is larger.
+const LARGEST_SHAPE: f64 = 16.0;
 
 /// Room for the search of eight roots.
 struct Room {
@@ -58,13 +62,13 @@ impl Room {
 /// The search of all roots.
 pub(super) struct Search<'a> {
     springs: &'a Springs,
-    starts: &'a [Start],
+    starts: Vec<Start>,
     room: Room,
     vectors: &'a mut Rows,
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(springs: &'a Springs, starts: &'a [Start], vectors: &'a mut Rows) -> Self {
+    pub(super) fn new(springs: &'a Springs, starts: Vec<Start>, vectors: &'a mut Rows) -> Self {
         Self {
             springs,
             starts,
@@ -82,6 +86,9 @@ impl Vectorised for Search<'_> {
         for block in 0..self.vectors.width() {
             let mut lambda = ComplexBlock::ZERO;
             lambda.put(self.solve_block::<I>(block)?);
+            if self.tell_by_largest(block, &lambda) {
+                lambda.put(self.solve_block::<I>(block)?);
+            }
             exponents.push(lambda);
         }
         Some(exponents)
@@ -131,6 +138,26 @@ impl<I: Instructions> Roots<I> {
 }
 
 impl Search<'_> {
+    /// Lets roots of which some mode takes a far larger part than the one that told them be told by
+    /// that mode; whether there are such.
+    fn tell_by_largest(&mut self, block: usize, lambda: &ComplexBlock) -> bool {
+        let first = block * LANES;
+        let end = self.starts.len().min(first + LANES);
+        let mut is_changed = false;
+        for (lane, start) in self.starts[first..end].iter_mut().enumerate() {
+            let size = |mode: &usize| entry(&self.vectors.row(*mode)[block..], lane).norm2();
+            let modes = 0..self.springs.modes();
+            let largest = modes.max_by(|a, b| size(a).total_cmp(&size(b)));
+            if let Some(mode) = largest.filter(|mode| size(mode) > LARGEST_SHAPE.powi(2)) {
+                *start = self
+                    .springs
+                    .start(mode, entry(std::slice::from_ref(lambda), lane));
+                is_changed = true;
+            }
+        }
+        is_changed
+    }
+
     #[inline(always)]
     fn solve_block<I: Instructions>(&mut self, block: usize) -> Option<Complex<Lanes<I>>> {
         let mut roots = self.begin::<I>(block);

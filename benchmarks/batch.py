@@ -1,0 +1,153 @@
+"""Solutions a second of SDNL32 over stop stiffness, gap and speed, beside numba loops, in one run.
+
+Twelve displacements of the tip are kept of each of 10^5 problems, in memory. Ours is exact; the
+peers march by central differences at 1e-5 s, on all cores as well. All take turns, so that a
+busy machine slows all alike; the best of the rounds counts. Errors of ours are against fifty-digit
+arithmetic, of the peers against ours.
+"""
+
+import argparse
+import resource
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))  # the oracle lives among the tests
+
+import bumpstop as bs
+from benchmarks.numba_batch import LANES, eight_lanes, loop
+from benchmarks.sdnl32_problems import DURATION, PUBLISHED_RATE, beam, published
+from bumpstop.study.pool import usable_cores
+from tests.reference.precise import PreciseSolution
+from tests.reference.problem import Array, StopProblem
+
+STEP = 1e-5
+OUTPUTS = 12
+EVERY = np.round(np.arange(1, OUTPUTS + 1) * (DURATION / OUTPUTS) / STEP).astype(np.int64)
+TIMES: Array = np.minimum(EVERY * STEP, DURATION)
+ROUNDS = 5
+REFERENCES = 12
+GROWTH = (1_000, 10_000, 100_000, 1_000_000)
+TIP = bs.Output(quantity="displacement", node="B", dof="dy", times=TIMES.tolist())
+
+
+def samples(count: int, seed: int = 8) -> tuple[Array, Array, Array]:
+    """Return stiffness in N/m, gap in m, and factors of the published speed."""
+    rng = np.random.default_rng(seed)
+    stiffness = rng.uniform(5e3, 1e5, count)
+    gap = np.where(np.arange(count) % 2, rng.uniform(0.0, 1e-3, count), 0.0)
+    return stiffness, gap, rng.uniform(-6.0, -1.0, count) / PUBLISHED_RATE
+
+
+def problem() -> bs.Problem:
+    """Return SDNL32."""
+    stop = bs.Stop("spring", node="B", normal=(0, 1, 0), stiffness=18e3)
+    start = bs.RigidRotation(about="A", rate=(0, 0, PUBLISHED_RATE))
+    return bs.Problem(beam(), laws=[stop], initial=start, duration=DURATION)
+
+
+def ours(model: bs.Problem, drawn: tuple[Array, Array, Array], *, lanes: bool) -> Array:
+    """Return the tips (run, time)."""
+    stiffness, gap, scale = drawn
+    varied = {
+        "stops.spring.stiffness": stiffness,
+        "stops.spring.gap": gap,
+        "initial.velocity": scale,
+    }
+    found = bs.batch(model, varied, {"tip": TIP}, lanes=lanes)
+    assert not found.failed.any()
+    tips: Array = found.tip.values
+    return tips
+
+
+def peer(march: Callable[..., None], base: StopProblem, drawn: tuple[Array, Array, Array]) -> Array:
+    """Return the tips (run, time) of a numba loop."""
+    tips = np.zeros((len(drawn[0]), OUTPUTS))
+    march(base.omega2, base.damping, base.row, base.velocity, *drawn, STEP, EVERY, tips)
+    return tips
+
+
+def worst_error(tips: Array, drawn: tuple[Array, Array, Array]) -> float:
+    """Return the largest error of some runs against fifty digits, over the largest displacement."""
+    base, worst = published()[0], 0.0
+    for run in range(REFERENCES):
+        stiffness, gap, scale = (float(column[run]) for column in drawn)
+        exact = base.but(stiffness=stiffness, gap=gap, velocity=base.velocity * scale)
+        known = PreciseSolution(exact).motion(TIMES)[0] @ base.row
+        worst = max(worst, float(np.abs(tips[run] - known).max() / np.abs(known).max()))
+    return worst
+
+
+def main() -> int:
+    """Measure, print and judge; return 1 if a target was missed."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--runs", type=int, default=100_000)
+    parser.add_argument("--largest", type=int, default=GROWTH[-1], help="most runs of the growth")
+    given = parser.parse_args()
+    count = given.runs - given.runs % LANES
+    model, base, drawn = problem(), published()[0], samples(count)
+    march, march_eight = loop(), eight_lanes()
+    solvers: dict[str, Callable[[tuple[Array, Array, Array]], Array]] = {
+        "bumpstop, lanes": lambda drawn: ours(model, drawn, lanes=True),
+        "bumpstop, single runs": lambda drawn: ours(model, drawn, lanes=False),
+        "numba loop": lambda drawn: peer(march, base, drawn),
+        "numba, eight lanes": lambda drawn: peer(march_eight, base, drawn),
+    }
+    for solve in solvers.values():
+        solve(samples(8 * LANES))  # compiles what numba compiles
+    best = dict.fromkeys(solvers, 0.0)
+    tips: dict[str, Array] = {}
+    for _ in range(ROUNDS):
+        for name, solve in solvers.items():
+            start = perf_counter()
+            tips[name] = solve(drawn)
+            best[name] = max(best[name], count / (perf_counter() - start))
+    exact = tips["bumpstop, lanes"]
+    size = np.abs(exact).max(axis=1, keepdims=True)
+    print(f"{count} problems, {OUTPUTS} outputs each, {usable_cores()} cores, best of {ROUNDS}")
+    for name, rate in best.items():
+        difference = float(np.max(np.abs(tips[name] - exact) / size))
+        print(f"{name:24}{rate:12.0f} a second   from ours {difference:.1e}")
+    growth = grown(model, given.largest)
+    return judge(best, worst_error(exact, drawn), growth)
+
+
+def grown(model: bs.Problem, largest: int) -> dict[int, float]:
+    """Return solutions a second by the number of runs, and print them with the memory taken."""
+    rates = {}
+    print(f"\n{'runs':>10}{'a second':>12}{'most memory in MB':>20}")
+    for count in (runs for runs in GROWTH if runs <= largest):
+        drawn = samples(count)
+        rates[count] = 0.0
+        for _ in range(ROUNDS):
+            start = perf_counter()
+            ours(model, drawn, lanes=True)
+            rates[count] = max(rates[count], count / (perf_counter() - start))
+        # In kB; of the whole process, the results and compiled peers among it.
+        most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+        print(f"{count:10}{rates[count]:12.0f}{most:20.0f}")
+    return rates
+
+
+def judge(best: dict[str, float], error: float, growth: dict[int, float]) -> int:
+    """Print each target with what was reached; return 1 if one was missed."""
+    rate = best["bumpstop, lanes"]
+    large = [rates for count, rates in growth.items() if count >= 10_000]
+    checks = [
+        ("times the numba loop, at least 10", rate / best["numba loop"], 10.0),
+        ("times eight lanes of numba, at least 2", rate / best["numba, eight lanes"], 2.0),
+        ("1e-11 over the error, at least 1", 1e-11 / error, 1.0),
+        ("slowest over fastest from 10^4 runs on, at least 0.7", min(large) / max(large), 0.7),
+    ]
+    print()
+    for name, reached, least in checks:
+        print(f"{'PASS' if reached >= least else 'MISS'}  {name}: {reached:.3g}")
+    print(f"error against fifty digits: {error:.1e}")
+    return 0 if all(reached >= least for _, reached, least in checks) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

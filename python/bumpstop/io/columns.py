@@ -1,0 +1,129 @@
+"""Columns of a file: numbers and texts that are checked as they are read."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from bumpstop.arguments import FloatArray
+from bumpstop.errors import InputError
+from bumpstop.instants import Grid
+from bumpstop.io.netcdf_format import CHECKSUM, checksum
+from bumpstop.structure.sparse import IndexArray
+
+__all__ = ["Column", "Instants", "numbers", "texts"]
+
+HELD = 64_000_000
+"""Bytes of a column at most that are held in memory; others are read as they are asked for."""
+
+
+def texts(dataset: h5py.Dataset) -> list[str]:
+    """Return texts of a file.
+
+    Raises
+    ------
+    InputError
+        If they are not those that were written.
+    """
+    words = [bytes(word) for word in dataset[()]]
+    told = dataset.attrs.get(CHECKSUM)
+    if told is not None and (told.decode() if isinstance(told, bytes) else told) != checksum(words):
+        raise _damaged(dataset)
+    return [word.decode() for word in words]
+
+
+def numbers(dataset: h5py.Dataset, rows: object = ()) -> NDArray[Any]:
+    """Return numbers of a file.
+
+    Raises
+    ------
+    InputError
+        If they are not those that were written: HDF5 looks at its checksums.
+    """
+    try:
+        found: NDArray[Any] = dataset[rows]
+    except OSError as error:
+        raise _damaged(dataset) from error
+    return found
+
+
+def _damaged(dataset: h5py.Dataset) -> InputError:
+    what = "is damaged: what it holds has not the checksum that it was written with"
+    hint = "take another copy of the file, or write it again"
+    name = str(dataset.name).removeprefix("/")
+    return InputError(what, key=name, file=str(dataset.file.filename), hint=hint)
+
+
+class Column:
+    """Numbers over time, held in memory where they are few.
+
+    Parameters
+    ----------
+    dataset
+        Rows of numbers, one an instant.
+    """
+
+    def __init__(self, dataset: h5py.Dataset) -> None:
+        self._dataset = dataset
+        self.is_held = dataset.nbytes <= HELD
+        self._held = numbers(dataset) if self.is_held else np.zeros(0)
+
+    def at(self, rows: IndexArray) -> NDArray[Any]:
+        """Return some rows.
+
+        Raises
+        ------
+        InputError
+            If they are damaged.
+        """
+        if self.is_held:
+            return self._held[rows]
+        if not len(rows):
+            return numbers(self._dataset, slice(0, 0))
+        first, last = int(rows.min()), int(rows.max())
+        return numbers(self._dataset, slice(first, last + 1))[rows - first]
+
+
+class Instants:
+    """Instants of a file, and the rows in which they are.
+
+    Parameters
+    ----------
+    times
+        Evenly spaced ones, of which nothing is held, or any others.
+    """
+
+    def __init__(self, times: Grid | FloatArray) -> None:
+        self.times = times
+        self._order = None if isinstance(times, Grid) else np.argsort(times, kind="stable")
+
+    def rows(self, wanted: FloatArray) -> IndexArray:
+        """Return the rows of instants.
+
+        Raises
+        ------
+        InputError
+            If one is not in the file.
+        """
+        if isinstance(self.times, Grid):
+            last = len(self.times) - 1
+            found = np.clip(np.rint(wanted / self.times.step), 0, last).astype(np.intp)
+            # The last step may be a short one.
+            found[wanted == self.times.end] = last
+            known = np.where(found == last, self.times.end, found * self.times.step)
+        else:
+            ordered = self.times[self._order]
+            place = np.searchsorted(ordered, wanted).clip(0, max(len(ordered) - 1, 0))
+            found = np.arange(len(ordered))[self._order][place]
+            known = ordered[place]
+        if (known != wanted).any():
+            raise InputError(
+                "is not among the instants of the file",
+                key="times",
+                value=float(wanted[known != wanted][0]),
+                hint="to read it anywhere, simulate the response's problem again",
+            )
+        return found

@@ -1,0 +1,98 @@
+"""The page of a study, in the browser: a click on a point leads to its run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from bumpstop.cli import main
+from tests.study.bouncing import STUDY, written
+
+from .conftest import draw_all
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Locator, Page, Position
+
+    from .conftest import Opened
+
+DRAWN = (
+    STUDY.replace('from = "50 N/m", to = 800, count = 5, spacing = "log"', "from = 50, to = 800")
+    + '[sampling]\nmethod = "latin_hypercube"\ncount = 12\n'
+)
+
+
+def swept(folder: Path, study: str, capsys: pytest.CaptureFixture[str]) -> Path:
+    path = written(folder, study)
+    assert main(["sweep", str(path), "--workers", "1"]) == 0
+    capsys.readouterr()
+    return path.with_suffix(".html")
+
+
+def middle_of_cell(place: Locator, column: int, row: int) -> Position:
+    """Return where on a plot a cell of its heat map lies."""
+    found: Position = place.evaluate(
+        """(place, [column, row]) => {
+          const { xaxis, yaxis } = place._fullLayout;
+          const [trace] = place._fullData;
+          return { x: xaxis._offset + xaxis.d2p(trace.x[column]),
+                   y: yaxis._offset + yaxis.d2p(trace.y[row]) };
+        }""",
+        [column, row],
+    )
+    return found
+
+
+def test_a_click_on_a_cell_tells_its_run(
+    opened: Opened, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page: Page = opened(swept(tmp_path, STUDY, capsys))
+    draw_all(page)
+    varied = page.get_by_role("region", name="What varies").locator("tbody td")
+    assert varied.all_text_contents() == ["50 to 800, 5 values", "0.25 to 0.5, 2 values"]
+    place = page.locator("[data-figure]").first
+    place.scroll_into_view_if_needed()
+    place.click(position=middle_of_cell(place, 3, 1))  # 400 N/m, 50 cm
+    told = page.locator("#run [data-part=told]")
+    page.wait_for_function(
+        "told => told.textContent.includes('stiffness = 400')", arg=told.element_handle()
+    )
+    assert "stops.spring.gap = 0.5000" in (told.text_content() or "")
+    command = page.locator("#run [data-part=command]").text_content() or ""
+    assert command == f"bumpstop sweep {tmp_path / 'study.toml'} --open 7"
+    # What is offered is what the shell understands.
+    assert main(command.split()[1:]) == 0
+    assert (tmp_path / "study-run-7" / "report.html").exists()
+    assert "stiffness = 400" in (tmp_path / "study-run-7" / "case.toml").read_text()
+
+
+def test_extremes_and_numbers_lead_to_runs(
+    opened: Opened, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page: Page = opened(swept(tmp_path, DRAWN, capsys))
+    draw_all(page)
+    assert page.locator("[data-figure]").count() == 6  # two outputs: one histogram, two scatters
+    rows = page.locator("#results tbody tr")
+    largest = rows.first.locator(".run-link").last
+    largest.click()
+    run = largest.get_attribute("data-run")
+    assert page.locator("#run [data-part=number]").input_value() == run
+    command = page.locator("#run [data-part=command]")
+    assert (command.text_content() or "").endswith(f"--open {run}")
+    page.locator("#run [data-part=number]").fill("3")
+    assert (command.text_content() or "").endswith("--open 3")
+
+
+def test_failed_runs_are_listed(
+    opened: Opened, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wrong = STUDY.replace('"50 N/m"', "-50").replace('"log"', '"linear"')
+    page: Page = opened(swept(tmp_path, wrong, capsys))
+    assert page.locator("[data-verdict=failed]").text_content() == "✗ 2 of 10 runs failed"
+    failures = page.locator("li", has_text="must be positive")
+    assert failures.count() == 2
+    failures.last.locator("button").click()
+    command = page.locator("#run [data-part=command]").text_content() or ""
+    assert command.endswith("--open 1")

@@ -1,0 +1,96 @@
+"""Forces of laws against what they resist."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import bumpstop as bs
+from bumpstop.report import as_plotly, figures
+from bumpstop.report.loops import force_loop, friction_loop
+
+from .conftest import CASES, Run
+
+
+def path(figure: figures.Figure) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    (trace,) = figure["data"]
+    return np.asarray(trace["x"]), np.asarray(trace["y"])
+
+
+@pytest.fixture(scope="module")
+def device() -> bs.Response:
+    """The seismic device of SDND120A, between supports that move."""
+    case = bs.load_case(CASES / "sdnd120a" / "case.toml")
+    return bs.simulate(case.problems["base"])
+
+
+@pytest.fixture(scope="module")
+def sliding() -> bs.Response:
+    """A block on a spring that slides to rest on a floor."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[1.0, 0.0], shapes={("P", "dx"): [1.0, 0.0], ("P", "dy"): [0.0, 1.0]}
+    )
+    floor = bs.Stop(
+        "floor", node="P", normal=(0, 1, 0), gap=-1e-3, stiffness=1e4, friction=0.1,
+        tangential_stiffness=1e5,
+    )  # fmt: skip
+    weight = bs.NodalForce("weight", node="P", force=(0, -10.0, 0))
+    thrown = bs.ModalState(velocity=[1.0, 0.0])
+    problem = bs.Problem(basis, laws=[floor], loads=[weight], initial=thrown, duration=2.0)
+    return bs.simulate(problem, method="exact")
+
+
+def test_a_spring_comes_back_the_way_it_went(soft: bs.Response) -> None:
+    figure = force_loop(soft, "spring")
+    depth, force = path(figure)
+    np.testing.assert_allclose(force, 18.0 * np.maximum(depth, 0.0), atol=1e-9)  # N over mm
+    assert figure["layout"]["shapes"][0]["x0"] == 0.0
+    assert figure["layout"]["title"]["subtitle"]["text"] == "Nothing lost in it"
+    assert as_plotly(figure).layout.xaxis.title.text == "Depth beyond contact (mm)"
+
+
+def test_a_short_contact_is_still_a_curve(ball: Run) -> None:
+    depth, _ = path(force_loop(ball.responses["base"], "spring"))
+    assert np.count_nonzero(depth > 0.0) > 60
+
+
+def test_the_area_of_a_loop_is_the_energy_lost(device: bs.Response) -> None:
+    figure = force_loop(device, "device")
+    deformation, force = path(figure)  # mm and kN
+    area = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(deformation)))
+    end = device.energy_terms([device.problem.duration])
+    held = float(end["stored"][0])
+    # Trapezoids between samples of 2 ms, on a curve with corners.
+    assert area == pytest.approx(float(end["dissipated_stops"][0]) + held, rel=5e-3)
+    assert figure["layout"]["title"]["text"] == "Device: what it resists"
+    assert figure["layout"]["title"]["subtitle"]["text"].endswith(" lost in it by the end")
+
+
+def test_friction_resists_with_the_coefficient_times_the_push(sliding: bs.Response) -> None:
+    way, friction = path(friction_loop(sliding, "floor"))
+    assert np.abs(friction).max() == pytest.approx(1.0, rel=1e-9)  # 0.1 of 10 N
+    # While it slides on, it resists: the work done on it is positive.
+    assert np.sum(0.5 * (friction[1:] + friction[:-1]) * np.diff(way)) > 0.0
+
+
+def test_what_rubs_in_no_single_direction_is_refused(soft: bs.Response) -> None:
+    with pytest.raises(bs.InputError, match="does not rub in one direction"):
+        friction_loop(soft, "spring")
+
+
+def test_a_device_pulls_as_well_as_it_pushes(device: bs.Response) -> None:
+    figure = figures.stop_force(device, "device")
+    (trace,) = figure["data"]
+    assert min(trace["y"]) < 0.0 < max(trace["y"])
+    assert "rangemode" not in figure["layout"]["yaxis"]
+    assert figure["layout"]["title"]["text"] == "Force of device device"
+    assert figures.gap(device, "device")["layout"]["title"]["text"].startswith("Deformation of")
+
+
+def test_friction_in_two_directions_is_drawn_in_both() -> None:
+    case = bs.load_case(CASES / "tube-in-hole" / "case.toml")
+    response = bs.simulate(case.problems["sliding"], method="dop853", rtol=1e-9)
+    around, along = figures.friction_force(response, "hole")["data"]
+    assert np.abs(around["y"]).max() < 1e-9
+    # Sliding forwards, 0.3 of 10 N hold it back.
+    assert min(along["y"]) == pytest.approx(-3.0, rel=1e-6)
