@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bumpstop as bs
-from bumpstop.report import write_comparison
+from bumpstop.report import tables, write_comparison
 from bumpstop.report.comparison import comparison_content
 
 from .conftest import Run
@@ -93,6 +93,20 @@ def test_only_what_all_runs_have_is_compared(runs: dict[str, bs.Response]) -> No
         "Displacement dx of P",
         "Energy at the end of the run",
     ]
+
+
+def test_no_column_is_empty(runs: dict[str, bs.Response], sdnl32: Run) -> None:
+    """Nothing is published of runs alone, and so nothing is told of it."""
+    content, _ = comparison_content(runs)
+    overview = content["overview"]
+    assert overview["columns"][-1] == "Core time"
+    columns = zip(*(row["cells"] for row in overview["rows"]), strict=True)
+    assert not [cells for cells in columns if set(cells) <= {"", "–", "none"}]
+    assert all(len(row["cells"]) + 1 == len(overview["columns"]) for row in overview["rows"])
+    checked = sdnl32.checks
+    told = tables.overview(sdnl32.responses, checked, dict.fromkeys(sdnl32.responses, 1.0))
+    assert told["columns"][-1] == "Published values"
+    assert all(len(row["cells"]) + 2 == len(told["columns"]) for row in told["rows"])
 
 
 def test_one_run_is_no_comparison(runs: dict[str, bs.Response], tmp_path: Path) -> None:

@@ -92,6 +92,25 @@ class MovingForce:
         force = ", ".join(f"{part:g}" for part in self.force)
         return f"({force}) N along {self.beam} at {self.speed:g} m/s"
 
+    def passage(self, model: LinearModel, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return where along the beam it is at some times, in m, and what it is multiplied by.
+
+        It is multiplied by zero while it is not on the beam, and its place is then that of an end.
+
+        Raises
+        ------
+        InputError
+            If the model has no such beam.
+        """
+        length = beam_length(model, self.beam)
+        gone = self.speed * (times - self.enters) + (length if self.speed < 0.0 else 0.0)
+        places = np.clip(gone, 0.0, length)
+        factors = np.where(gone == places, 1.0, 0.0)
+        functions = time_functions(self.time)
+        if functions:
+            factors *= sum(function.at(times) for function in functions)
+        return places, factors
+
     def components(self, basis: ModalBasis) -> tuple[ForceComponent, ...]:
         """Return the force on each mode, with the function of time that it is.
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,30 +13,19 @@ from bumpstop.arguments import FloatArray
 from bumpstop.canonical import velocity_matrix
 from bumpstop.errors import InputError
 from bumpstop.laws.coordinate import coordinates_of
+from bumpstop.loads.moving_force import MovingForce
 from bumpstop.loads.support_motion import SupportMotion
+from bumpstop.post.force_field import ForceField, Sizes, spread, sums
+from bumpstop.post.moving import moving_fields
 
 if TYPE_CHECKING:
     from bumpstop.laws.coordinate import Coordinate
-    from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.response import Response
     from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["ForceField", "Forces"]
-
-
-class ForceField(NamedTuple):
-    """Forces of one kind: fields of all dofs times functions of time."""
-
-    kind: str
-    """``load``, ``law``, ``damping`` (gyroscopic and circulatory forces too) or ``elastic``."""
-    fields: FloatArray
-    """In N and N m where the functions are one, (dofs, m)."""
-    sizes: Callable[[FloatArray], FloatArray]
-    """The functions, (time, m), at some times in s."""
-    inside: Callable[[Cut], FloatArray] | None = None
-    """What the fields do at a place inside an element whose ends are held, (r, m)."""
+__all__ = ["Forces"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,15 +72,12 @@ class Forces:
 
         Inertia forces and modal damping are spread as masses are.
         """
-        spread = -self.response.motion(2, times).T
-        spread -= self._given_damping @ self.response.motion(1, times).T
-        total = cut.of_inertia(self.basis.shapes) @ spread
+        spreading = -self.response.motion(2, times).T
+        spreading -= self._given_damping @ self.response.motion(1, times).T
+        total = cut.of_inertia(self.basis.shapes) @ spreading
         for each in self.local:
-            if each.inside is None:
-                continue
-            parts = each.inside(cut)
-            if parts.any():
-                total += parts @ each.sizes(times).T
+            if each.inside is not None:
+                total += each.inside(cut, times)
         return total
 
     def modal_damping(self, times: FloatArray) -> FloatArray:
@@ -133,14 +119,18 @@ class Forces:
             if isinstance(load, SupportMotion):
                 yield self._support_forces(load)
                 continue
+            if isinstance(load, MovingForce):
+                yield from moving_fields(load, self.basis, self._mass_shapes, duration)
+                continue
             components = load.components(self.basis)
             fields = getattr(load, "nodal_forces", None)
             if fields is None:
                 what = "says nothing of its forces on the nodes"
                 raise InputError(what, key=f"loads.{load.name}")
-            functions = [each for _, each in components]
+            sizes = sums([functions for _, functions in components], duration)
             inside = getattr(load, "inside", None)
-            yield ForceField("load", fields(self.model), _sums(functions, duration), inside)
+            own = None if inside is None else spread(inside, sizes)
+            yield ForceField("load", fields(self.model), sizes, own)
 
     def _support_forces(self, load: SupportMotion) -> ForceField:
         """Return the forces on what moves against supports that carry it along, by its inertia."""
@@ -155,7 +145,7 @@ class Forces:
         def sizes(times: FloatArray) -> FloatArray:
             return np.stack([travel.at(times, order) for order in range(3)], axis=1)
 
-        return ForceField("load", np.stack(rates, axis=1), sizes, load.inside)
+        return ForceField("load", np.stack(rates, axis=1), sizes, spread(load.inside, sizes))
 
     def carried(self, times: FloatArray) -> FloatArray:
         """Return the displacements by which supports that move differently carry all dofs along.
@@ -174,9 +164,10 @@ class Forces:
         for number, law in enumerate(self.response.problem.laws):
             along = coordinates_of(law, self.basis)
             fields = np.stack([each.nodal_force(self.model) for each in along], axis=1)
-            yield ForceField("law", fields, self._law_forces(number), partial(_inside, along))
+            sizes = self._law_forces(number)
+            yield ForceField("law", fields, sizes, spread(partial(_inside, along), sizes))
 
-    def _law_forces(self, number: int) -> Callable[[FloatArray], FloatArray]:
+    def _law_forces(self, number: int) -> Sizes:
         return lambda times: self.response.history.law_forces(number, times)
 
     def _velocity_forces(self) -> Iterator[ForceField]:
@@ -184,9 +175,10 @@ class Forces:
         moved = -(model.damping @ shapes) - (model.gyroscopic @ shapes)
         if moved.any():
             # Dampers are at nodes, gyroscopic moments along beams.
-            spread = partial(_gyration, shapes) if model.gyroscopic.values.any() else None
             speeds = partial(self.response.motion, 1)
-            yield ForceField("damping", moved, speeds, spread)
+            turning = spread(partial(_gyration, shapes), speeds)
+            inside = turning if model.gyroscopic.values.any() else None
+            yield ForceField("damping", moved, speeds, inside)
         turned = -(model.circulatory @ shapes)
         if turned.any():
             yield ForceField("damping", turned, lambda times: self.response.motion(0, times))
@@ -200,22 +192,3 @@ def _inside(along: Sequence[Coordinate], cut: Cut) -> FloatArray:
 def _gyration(shapes: FloatArray, cut: Cut) -> FloatArray:
     """Return what gyroscopic moments do inside an element by the speeds of the modes, (r, N)."""
     return -cut.of_gyration(shapes)
-
-
-def _sums(
-    functions: Sequence[Sequence[TimeFunction]], duration: float
-) -> Callable[[FloatArray], FloatArray]:
-    """Return the sums of some functions of time; of none, the constant one."""
-    from bumpstop.loads.time import resolved
-
-    terms = [resolved(each, duration) if each else None for each in functions]
-
-    def sizes(times: FloatArray) -> FloatArray:
-        ones = np.ones(len(times))
-        columns = [
-            ones if each is None else sum((term.at(times) for term in each), 0.0 * ones)
-            for each in terms
-        ]
-        return np.stack(columns, axis=1)
-
-    return sizes

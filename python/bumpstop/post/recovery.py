@@ -20,7 +20,8 @@ from bumpstop.carried import carried_form
 from bumpstop.errors import InputError
 from bumpstop.labelled import over_time, time_coordinate
 from bumpstop.modal.unit_motion import unit_motion
-from bumpstop.post.forces import ForceField, Forces
+from bumpstop.post.force_field import ForceField
+from bumpstop.post.forces import Forces
 from bumpstop.projection import along
 from bumpstop.quantities import dof_units
 from bumpstop.structure.cut import Cut

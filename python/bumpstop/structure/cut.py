@@ -13,6 +13,7 @@ from bumpstop.structure.beam_element import BeamElement, gauss
 from bumpstop.structure.dofs import DOFS
 from bumpstop.structure.model import LinearModel
 from bumpstop.structure.points import beam_point
+from bumpstop.structure.smooth_pieces import SmoothPieces
 
 __all__ = ["Cut"]
 
@@ -55,6 +56,17 @@ class Cut:
         # What acts at a node does nothing in an element whose ends are held.
         inside = point is not None and point[0] == self.beam and is_inside
         return found if inside else np.zeros_like(found)
+
+    def of_places(self, beam: str, places: FloatArray, force: FloatArray) -> FloatArray:
+        """Return what a force (6,) does, at one place of a beam after the other, (r, n)."""
+        found = np.zeros((len(self.kernel(self.at)), len(places)))
+        first, last = self.element.start, self.element.end
+        inside = (places >= first) & (places <= last)
+        if beam == self.beam and inside.any():
+            edges = sorted({first, min(max(self.at, first), last), last})
+            pieces = SmoothPieces(lambda place: self.kernel(place) @ force, edges)
+            found[:, inside] = pieces.at(places[inside]).T
+        return found
 
     def of_density(self, density: Density, start: float, end: float) -> FloatArray:
         """Return what forces a metre do between two places of the beam, (r, m)."""
