@@ -16,13 +16,13 @@ from bumpstop.files import temporary_name
 SDNL32 = Path(__file__).parents[2] / "cases" / "sdnl32" / "case.toml"
 
 STUCK_WRITING = """
-import sys, time
+import sys
 from bumpstop.cli import main
 from bumpstop.report import html
 
 def write_report(*_):
     print("writing", flush=True)
-    time.sleep(60)
+    sys.stdin.read()  # until nobody is there to kill it
 
 html.write_report = write_report
 main(sys.argv[1:])
@@ -42,7 +42,8 @@ def found(folder: Path) -> set[str]:
 def run_that_is_killed(out: Path) -> Iterator[None]:
     """Start a run, go on once its first files are written, and kill it at the end."""
     command = [sys.executable, "-c", STUCK_WRITING, *arguments(out)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "writing\n"
         try:

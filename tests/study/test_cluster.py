@@ -13,7 +13,7 @@ from typing import Any
 
 import dask
 import pytest
-from distributed import Client, LocalCluster
+from distributed import Client, Future, LocalCluster
 
 import bumpstop as bs
 from bumpstop.cli import main
@@ -25,6 +25,7 @@ SLOW = CASE.replace("duration = 2.0", "duration = 2.0\nsample = 1e-5")
 """The energy ledger takes a few milliseconds."""
 LONG = STUDY.replace("count = 5", "count = 60").replace("chunk = 3", "chunk = 2")
 """60 chunks of two runs."""
+GAP = "stops.spring.gap"
 
 
 @pytest.fixture(scope="module")
@@ -66,9 +67,16 @@ def files(store: Path) -> dict[str, bytes]:
     return {str(path.relative_to(store)): path.read_bytes() for path in found}
 
 
-def process_numbers(local: LocalCluster) -> list[int]:
-    """Return the processes of the workers that are there at the moment."""
-    return [nanny.pid for nanny in local.workers.values() if nanny.pid is not None]
+def living_process(local: LocalCluster, killed: list[int]) -> int:
+    """Return the process of a worker that has not been killed, waiting for one to be started."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        # Whoever starts workers again may not have seen yet that one is dead.
+        living = {nanny.pid for nanny in local.workers.values()} - {None, *killed}
+        if living:
+            return min(living)
+        time.sleep(0.02)
+    raise TimeoutError("no worker has been started again")
 
 
 def test_workers_are_killed_and_no_byte_differs(local: LocalCluster, tmp_path: Path) -> None:
@@ -80,7 +88,7 @@ def test_workers_are_killed_and_no_byte_differs(local: LocalCluster, tmp_path: P
     def kill_one(progress: Progress) -> None:
         told.append(progress)
         if len(told) in (5, 20, 40):
-            killed.append(process_numbers(local)[0])
+            killed.append(living_process(local, killed))
             os.kill(killed[-1], signal.SIGKILL)
 
     found = study.run(tmp_path / "there.zarr", scheduler=local, progress=kill_one)
@@ -117,11 +125,37 @@ def test_a_run_that_kills_its_workers_has_failed(
     monkeypatch: pytest.MonkeyPatch, local: LocalCluster, tmp_path: Path
 ) -> None:
     monkeypatch.setattr(cluster, "_made", deadly)
+    beside = watch_single_runs(monkeypatch)
     given = bs.load_study(written(tmp_path))
-    parameters = {"stops.spring.gap": [0.25, 0.5]}
-    found = bs.Study(given.case, parameters, given.outputs, chunk=2).run(scheduler=local)
-    assert found.failed.values.tolist() == [False, True]
-    assert "it was killed, or found no memory" in str(found.message.values[1])
+    gaps = [0.25, 0.3, 0.35, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75]
+    found = bs.Study(given.case, {GAP: gaps}, given.outputs, chunk=3).run(scheduler=local)
+    assert [gap for gap, failed in zip(gaps, found.failed, strict=True) if failed] == [0.5]
+    assert "it was killed, or found no memory" in str(found.message.values[3])
+    # dask blames all tasks that were at a worker: only what is alone there can be guilty.
+    assert len(beside) >= 3
+    assert set(beside) == {0}
+
+
+def watch_single_runs(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return a list that gets, for each run sent alone, how many tasks were out beside it."""
+    beside: list[int] = []
+    out = [0]
+    submitted, result = cluster.Cluster._submitted, cluster._result
+
+    def watched(self: cluster.Cluster, maker: Any, columns: cluster.Columns) -> Future[Any]:
+        if len(columns[GAP]) == 1:
+            beside.append(out[0])
+        out[0] += 1
+        return submitted(self, maker, columns)
+
+    def taken(future: Future[Any]) -> Any:
+        kept = result(future)
+        out[0] -= 1
+        return kept
+
+    monkeypatch.setattr(cluster.Cluster, "_submitted", watched)
+    monkeypatch.setattr(cluster, "_result", taken)
+    return beside
 
 
 made_by_workers = cluster._made
@@ -129,14 +163,12 @@ made_by_workers = cluster._made
 
 def deadly(name: str, columns: cluster.Columns) -> Any:
     """Make runs, unless one of them ends the process."""
-    if 0.5 in columns["stops.spring.gap"]:
+    if 0.5 in columns[GAP]:
         os._exit(1)
     return made_by_workers(name, columns)
 
 
-def test_a_scheduler_that_dies_loses_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_scheduler_that_dies_loses_nothing(tmp_path: Path) -> None:
     path = written(tmp_path, LONG, SLOW)
     study, store = bs.load_study(path), tmp_path / "study.zarr"
     study.run(tmp_path / "whole.zarr", workers=1)
@@ -146,7 +178,6 @@ def test_a_scheduler_that_dies_loses_nothing(
             if progress.made == 20:
                 process.kill()
 
-        monkeypatch.setattr(cluster, "PATIENCE", 2.0)
         with pytest.raises(bs.ComputationError, match="is gone; the runs made before are kept"):
             study.run(store, scheduler=file, progress=kill)
     made = int((~bs.open_study(store).force.isnull()).sum())

@@ -4,6 +4,10 @@ A recipe goes to each worker once, also to those that join later or are started 
 which the scheduler keeps, and not as scattered data, which die with the worker that holds
 them. Then chunks go out, a few for each thread at a time, and their results come back here to
 be written: whatever a cluster makes twice, because a worker was lost, is written once.
+
+dask blames every task that was at a worker when it died. So a chunk that it gives up is suspect, no
+more: it is kept aside until nothing else is out, and its runs are then made one at a time. Each
+is alone on the cluster, and only one that kills workers by itself has failed.
 """
 
 from __future__ import annotations
@@ -158,8 +162,9 @@ class Cluster:
         try:
             yield from self._fed(maker, recipe, iter(chunks), task_of)
         finally:
-            with suppress(Exception):  # a scheduler that is gone has forgotten it
-                self._client.unregister_worker_plugin(maker.name)
+            if self._client.status == "running":  # a scheduler that is gone has forgotten it
+                with suppress(Exception):
+                    self._client.unregister_worker_plugin(maker.name)
 
     def _fed(
         self,
@@ -170,6 +175,7 @@ class Cluster:
     ) -> Iterator[Done]:
         """Send chunks, as many as the workers can hold, and yield what comes back."""
         out: dict[Future[Kept], Task] = {}
+        suspects: list[Task] = []
         with self._told():
             back = as_completed(loop=self._client.loop)
         try:
@@ -177,10 +183,15 @@ class Cluster:
                 with self._told():
                     self._send(maker, chunks, task_of, out, back)
                     if not out:
-                        return
-                    future = next(back)
-                    task = out.pop(future)
-                    kept = self._kept(maker, recipe, task, future)
+                        break
+                    task, kept = _next(back, out)
+                if kept is None:
+                    suspects.append(task)
+                else:
+                    yield Done(task, kept)
+            for task in suspects:
+                with self._told():
+                    kept = self._one_by_one(maker, recipe, task)
                 yield Done(task, kept)
         finally:
             for future in out:
@@ -218,20 +229,15 @@ class Cluster:
         # Not pure: no other study's results are taken for these.
         return self._client.submit(_made, maker.name, dict(columns), pure=False)
 
-    def _kept(self, maker: _Maker, recipe: Recipe, task: Task, future: Future[Kept]) -> Kept:
-        """Return what is kept of a task; runs that have killed workers are made one by one."""
-        try:
-            return _result(future)
-        except KilledWorker:
-            number = len(next(iter(task.columns.values())))
+    def _one_by_one(self, maker: _Maker, recipe: Recipe, task: Task) -> Kept:
+        """Make the runs of a suspect chunk, each when the one before it has ended."""
+        number = len(next(iter(task.columns.values())))
         kept = Kept.failed(recipe.outputs, [DIED] * number)
-        singles = [
-            self._submitted(maker, {name: [column[run]] for name, column in task.columns.items()})
-            for run in range(number)
-        ]
-        for run, single in enumerate(singles):
-            with suppress(KilledWorker):
-                kept.put(run, _result(single))
+        for run in range(number):
+            columns = {name: [column[run]] for name, column in task.columns.items()}
+            single = _result(self._submitted(maker, columns))
+            if single is not None:
+                kept.put(run, single)
         return kept
 
     @contextmanager
@@ -252,8 +258,18 @@ _GONE = (OSError, FutureCancelledError, CancelledError)
 """What is raised where a scheduler does not answer any more, or has let our tasks go."""
 
 
-def _result(future: Future[Kept]) -> Kept:
-    kept: Kept = future.result()
+def _next(back: as_completed, out: dict[Future[Kept], Task]) -> tuple[Task, Kept | None]:
+    """Return the next chunk that has come back; dask may then forget it."""
+    future = next(back)
+    return out.pop(future), _result(future)
+
+
+def _result(future: Future[Kept]) -> Kept | None:
+    """Return what is kept of a task; None where workers died while it was with them."""
+    try:
+        kept: Kept = future.result()
+    except KilledWorker:
+        return None
     return kept
 
 

@@ -81,9 +81,11 @@ class ZarrStore:
         Its folder.
     layout
         The arrays that it has.
+    filled
+        Whether any chunk may be there.
     """
 
-    def __init__(self, path: Path, layout: Layout) -> None:
+    def __init__(self, path: Path, layout: Layout, *, filled: bool) -> None:
         import zarr
 
         self._path = path
@@ -95,6 +97,9 @@ class ZarrStore:
             for name, array in self._arrays.items():
                 every = {"write_empty_chunks": name != "message"}
                 self._arrays[name] = array.with_config(every)
+            # Kept here: to ask for a file of each chunk takes long where there are many.
+            status = self._arrays["status"][ALL] if filled else layout.arrays["status"].empty()
+            self._status: NDArray[np.uint8] = np.asarray(status)
 
     def write(self, chunk: int, columns: Mapping[str, NDArray[Any]], kept: Kept) -> None:
         """Keep a chunk: its status last, which says that the chunk is there."""
@@ -102,9 +107,12 @@ class ZarrStore:
         with _said(self._path):
             for name, values in _arrays_of(columns, kept).items():
                 self._arrays[name][part] = values
+        self._status[part] = kept.status
 
     def read(self, name: str, part: slice = ALL) -> NDArray[Any]:
         """Return what an array holds."""
+        if name == "status":
+            return self._status[part]
         with _said(self._path):
             return np.asarray(self._arrays[name][part])
 
@@ -145,7 +153,7 @@ def open_zarr_store(
     _require_zarr()
     if not path.exists():
         _make(path, layout, definition)
-        return ZarrStore(path, layout)
+        return ZarrStore(path, layout, filled=False)
     if not resume:
         hint = "go on with it by --resume (resume=True), or name another store"
         raise InputError("is there already", file=str(path), key="store", hint=hint)
@@ -154,7 +162,7 @@ def open_zarr_store(
         raise InputError("is read-only", file=str(path), key="store")
     for partial in path.rglob(_PARTIAL):
         partial.unlink(missing_ok=True)
-    store = ZarrStore(path, layout)
+    store = ZarrStore(path, layout, filled=True)
     store.check_whole()
     return store
 
