@@ -72,9 +72,10 @@ def living_process(local: LocalCluster, killed: list[int]) -> int:
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline:
         # Whoever starts workers again may not have seen yet that one is dead.
-        living = {nanny.pid for nanny in local.workers.values()} - {None, *killed}
-        if living:
-            return min(living)
+        processes: set[int | None] = {nanny.pid for nanny in local.workers.values()}
+        for process in processes.difference(killed):
+            if process is not None:
+                return process
         time.sleep(0.02)
     raise TimeoutError("no worker has been started again")
 
