@@ -71,6 +71,7 @@ RESULTS = {
     "clamp": 'type = "reactions"\nnode = "A"',
     "points": 'type = "poincare"\nnode = "B"\ndof = "dy"\nperiod = 0.142857142857\nstart = 0.5',
     "order": 'type = "lyapunov"\nexponents = 2\nstart = 0.3',
+    "sides": 'type = "work_by_sector"\nstops = "wall"\nsectors = 4\naxes = ["dx", "dy"]',
     "scar": 'type = "wear"\nstop = "wall"\nlaw = "archard"\ncoefficient = 2e-18\n'
     'service = ["1 year", "2 year"]\nradius = "9 mm"\nlength = "10 mm"',
 }
@@ -230,3 +231,66 @@ def test_a_file_without_results_has_none(tmp_path: Path) -> None:
         bs.read_results(tmp_path / "text.nc")
     with pytest.raises(bs.InputError, match="no such file"):
         bs.read_results(tmp_path / "missing.nc")
+
+
+HOLE = """
+[stops.hole]
+node = "B"
+obstacle = "circle"
+axis = [1, 0, 0]
+radius = "0.5 mm"
+stiffness = "80 kN/m"
+friction = 0.2
+tangential_stiffness = "80 kN/m"
+"""
+
+
+def in_a_hole(tmp_path: Path, table: str) -> bs.Case:
+    free = CASE.replace('fixed = ["dx", "dz", "drx", "dry"]', 'fixed = ["dx", "drx"]')
+    free = free.replace('fixed = ["dy", "drz"]', 'fixed = ["dy", "dz", "dry", "drz"]')
+    free = free.replace("force = [0, 30, 0]", "force = [0, 30, 20]").replace(
+        "duration = 2.0", "duration = 0.6"
+    )
+    wall = free.index("[stops.wall]"), free.index("[loads.shaker]")
+    text = free[: wall[0]] + HOLE + free[wall[1] :] + f"[results.sides]\n{table}\n"
+    file = tmp_path / "case.toml"
+    file.write_text(text.replace('method = "exact"\n', ""))
+    return bs.load_case(file)
+
+
+def test_work_by_sector(tmp_path: Path) -> None:
+    case = in_a_hole(tmp_path, 'type = "work_by_sector"\nstops = "hole"\nsectors = 12')
+    run = bs.simulate(case.problems["base"])
+    (result,) = case.results["base"]
+    reading = result.read(run)
+    expected = bs.work_by_sector(run, "hole", sectors=12)
+    assert float(expected.sum()) > 0.0
+    total, largest, angle = reading.facts
+    assert total.value == pytest.approx(bs.wear_work(run, "hole").rate, rel=1e-6)
+    assert largest.value == float(expected.max())
+    assert angle.value == float(expected["angle"][int(np.argmax(expected.values))])
+    page = tmp_path / "report.html"
+    write_report(case, {"base": run}, {}, page)
+    assert '"type":"barpolar"' in page.read_text()
+    run.to_netcdf(tmp_path / "run.nc", results=case.results["base"])
+    (drawn,) = bs.read_curves(tmp_path / "run.nc")["sides"]
+    assert drawn.identical(reading.figures[0].array)
+
+
+@pytest.mark.parametrize(
+    ("table", "line"),
+    [
+        ('stops = "hold"', "results.sides.stops"),
+        ('stops = ["hole", "hole"]', "results.sides.stops"),
+        ('stops = "hole"\nsectors = 100_000', "results.sides.sectors"),
+        ('stops = "hole"\naxes = ["dy", "dy"]', "results.sides.axes"),
+        ('stops = "hole"\naxes = ["dy", "drz"]', "results.sides.axes"),
+        ('stops = "hole"\ncentre = [0.0]', "results.sides.centre"),
+        ('stops = "hole"\nstart = 0.7', "results.sides.start"),
+    ],
+)
+def test_mistakes_in_sectors_are_one_line(tmp_path: Path, table: str, line: str) -> None:
+    with pytest.raises(bs.InputError) as caught:
+        in_a_hole(tmp_path, f'type = "work_by_sector"\n{table}')
+    assert line in str(caught.value)
+    assert "\n" not in str(caught.value)

@@ -70,7 +70,7 @@ def test_refuses(run: bs.Response) -> None:
         bs.work_by_sector(run, "east", axes=("dx", "drz"))
     for axes in (("dy", "dy"), ("dy",), ("dx", "dy", "dz")):
         with pytest.raises(bs.InputError, match="two different dofs"):
-            bs.work_by_sector(run, "east", axes=axes)  # type: ignore[arg-type]
+            bs.work_by_sector(run, "east", axes=axes)
     with pytest.raises(bs.InputError, match="used twice"):
         bs.work_by_sector(run, ["east", "east"])
 

@@ -133,3 +133,42 @@ def test_springs_stand_on_the_ground_outside_the_structure() -> None:
     left, right, dashpot = drawn_springs(basis, outline(basis), np.eye(3))
     assert (left["normal"][0], right["normal"][0]) == (1.0, -1.0)
     assert (dashpot["symbol"], dashpot["other"]) == ("damper", 1)
+
+
+@pytest.fixture(scope="module")
+def rubbing() -> bs.Response:
+    """A block that is pressed onto a floor and pulled along it."""
+    shapes = {("P", "dx"): [1.0, 0.0], ("P", "dy"): [0.0, 1.0]}
+    basis = bs.ModalBasis.from_modes(frequency=[2.0, 3.0], damping=0.05, shapes=shapes)
+    floor = bs.Stop(
+        "floor", node="P", normal=(0, 1, 0), gap=-5e-3, stiffness=2e4, friction=0.3,
+        sliding=(1, 0, 0), tangential_stiffness=5e3,
+    )  # fmt: skip
+    pull = bs.NodalForce("pull", node="P", force=(40, 0, 0), time=bs.Harmonic(0.7, sine=1.0))
+    return bs.simulate(bs.Problem(basis, laws=[floor], loads=[pull], duration=2.0))
+
+
+def test_the_slider_of_friction_is_drawn_where_it_stands(rubbing: bs.Response) -> None:
+    scene = scene_of(rubbing)
+    (floor,) = scene["laws"]
+    times = np.linspace(0.0, 2.0, scene["frames"] + 1)
+    anchor = rubbing.sample("internal_variable", "floor", "anchor", times=times)
+    np.testing.assert_array_equal(floor["slider"]["places"], anchor)
+    assert abs(floor["slider"]["direction"] @ floor["normal"]) < 1e-15
+    assert np.linalg.norm(floor["slider"]["direction"]) == pytest.approx(1.0)
+
+
+def test_the_slider_is_in_the_figure_in_space(rubbing: bs.Response) -> None:
+    figure = bs.draw_scene(rubbing, 1)
+    last = len(figure.frames) - 1
+    times = np.linspace(0.0, 2.0, last + 1)
+    anchors = rubbing.sample("internal_variable", "floor", "anchor", times=times)
+    places = [
+        0.5 * (np.min(frame.data[-1].x) + np.max(frame.data[-1].x)) for frame in figure.frames
+    ]
+    at_rest = figure.frames[0].data[1].x[0]
+    np.testing.assert_allclose(places - at_rest, anchors, atol=1e-6)
+
+
+def test_stops_without_friction_have_no_slider(soft: bs.Response) -> None:
+    assert all("slider" not in law for law in scene_of(soft)["laws"])

@@ -67,10 +67,12 @@ def test_the_area_of_a_loop_is_the_energy_lost(device: bs.Response) -> None:
 
 
 def test_friction_resists_with_the_coefficient_times_the_push(sliding: bs.Response) -> None:
-    way, friction = path(friction_loop(sliding, "floor"))
+    node, slider = friction_loop(sliding, "floor")["data"]
+    way, friction = np.asarray(node["x"]), np.asarray(node["y"])
     assert np.abs(friction).max() == pytest.approx(1.0, rel=1e-9)  # 0.1 of 10 N
     # While it slides on, it resists: the work done on it is positive.
     assert np.sum(0.5 * (friction[1:] + friction[:-1]) * np.diff(way)) > 0.0
+    assert (node["name"], slider["name"]) == ("Node", "Slider")
 
 
 def test_what_rubs_in_no_single_direction_is_refused(soft: bs.Response) -> None:
@@ -94,3 +96,32 @@ def test_friction_in_two_directions_is_drawn_in_both() -> None:
     assert np.abs(around["y"]).max() < 1e-9
     # Sliding forwards, 0.3 of 10 N hold it back.
     assert min(along["y"]) == pytest.approx(-3.0, rel=1e-6)
+
+
+def test_the_slider_is_behind_the_node_by_what_its_spring_gives(sliding: bs.Response) -> None:
+    _, slider = friction_loop(sliding, "floor")["data"]
+    anchor = sliding.sample("internal_variable", "floor", "anchor", times=[0.1, 2.0])
+    force = sliding.sample("friction_force", "floor", times=[0.1, 2.0])
+    place = sliding.sample("displacement", "P", "dx", times=[0.1, 2.0])
+    np.testing.assert_allclose(place - anchor, -force / 1e5, rtol=1e-9)
+    drawn = np.asarray(slider["x"])
+    assert drawn[-1] == pytest.approx(1e3 * anchor[1], rel=1e-6)  # in mm
+    # The loop of the slider is a rectangle's: it moves only while the force is the largest.
+    pull = np.abs(np.asarray(slider["y"]))
+    moves = np.abs(np.diff(drawn)) > 1e-6
+    assert np.maximum(pull[1:], pull[:-1])[moves].min() > 0.99
+
+
+def test_a_slider_out_of_contact_leaves_a_gap() -> None:
+    basis = bs.ModalBasis.from_modes(
+        frequency=[1.0, 0.0], shapes={("P", "dx"): [1.0, 0.0], ("P", "dy"): [0.0, 1.0]}
+    )
+    floor = bs.Stop(
+        "floor", node="P", normal=(0, 1, 0), gap=1e-3, stiffness=1e4, friction=0.1,
+        tangential_stiffness=1e5,
+    )  # fmt: skip
+    start = bs.ModalState(velocity=[0.3, -0.5])
+    run = bs.simulate(bs.Problem(basis, laws=[floor], initial=start, duration=0.5))
+    _, slider = friction_loop(run, "floor")["data"]
+    assert np.isnan(np.asarray(slider["x"], dtype=float)).any()
+    assert as_plotly(friction_loop(run, "floor")).layout.showlegend

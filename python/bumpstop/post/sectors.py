@@ -18,9 +18,10 @@ from bumpstop.projection import TRANSLATIONS
 if TYPE_CHECKING:
     import xarray as xr
 
+    from bumpstop.problem import Problem
     from bumpstop.response import Response
 
-__all__ = ["work_by_sector"]
+__all__ = ["MOST_SECTORS", "check_plane", "check_stops", "work_by_sector"]
 
 MOST_SECTORS = 3600
 SMOOTH = 1e-7
@@ -32,7 +33,7 @@ def work_by_sector(
     stops: str | Sequence[str],
     *,
     sectors: int = 8,
-    axes: tuple[str, str] = ("dy", "dz"),
+    axes: Sequence[str] = ("dy", "dz"),
     centre: tuple[float, float] = (0.0, 0.0),
     start: float = 0.0,
     end: float | None = None,
@@ -71,9 +72,9 @@ def work_by_sector(
     import xarray as xr
 
     names = (stops,) if isinstance(stops, str) else listed("stops", stops)
-    _check_stops(response, names)
+    check_stops(response.problem, names)
     first, last = time_window(response, start, end)
-    plane = _plane(axes)
+    plane = check_plane(axes)
     middle = np.array(pair("centre", centre))
     width = 2.0 * np.pi / count("sectors", sectors, most=MOST_SECTORS)
     total = np.zeros(sectors)
@@ -115,15 +116,19 @@ def _powers(
     return powers
 
 
-def _check_stops(response: Response, stops: Sequence[str]) -> None:
-    laws = [response.problem.laws[response.stop_index(stop)] for stop in stops]
+def check_stops(problem: Problem, stops: Sequence[str]) -> None:
+    """Raise where a problem has not these stops, or they are not at one node."""
+    for stop in stops:
+        one_of("stops", stop, problem.stop_names)
     refuse_twins("stops", stops)
+    laws = [law for law in problem.laws if law.name in stops]
     nodes = list(dict.fromkeys(law.coordinate.node for law in laws))
     if len(nodes) != 1:
         raise InputError("must be one or more stops at one node", key="stops", value=nodes)
 
 
-def _plane(axes: tuple[str, str]) -> list[str]:
+def check_plane(axes: Sequence[str]) -> list[str]:
+    """Return the two dofs that span a plane, or raise where they do not."""
     plane = [one_of("axes", axis, TRANSLATIONS) for axis in listed("axes", axes)]
     if len(set(plane)) != 2 or len(plane) != 2:
         raise InputError("must be two different dofs", key="axes", value=axes)

@@ -90,6 +90,7 @@ def law_scenes(
             scene |= {"kind": "round"} | _round(law, response, view, times)
         elif law.table == "stops":
             scene |= {"kind": "plane"} | _plane(law, response, times)
+            scene |= _slider(law, response, view, times)
         else:
             scene |= {"kind": "link"}
         drawn.append(scene)
@@ -131,6 +132,24 @@ def _plane(law: Law, response: Response, times: FloatArray) -> dict[str, Any]:
     scene = {"gaps": gaps, "surface": float(surface[0]), "lowest": float(surface.min()) - deepest}
     still = float(np.ptp(surface)) <= 1e-9 * float(np.abs(gaps).max() + np.abs(moved).max())
     return scene if still else scene | {"surfaces": surface}
+
+
+def _slider(law: Law, response: Response, view: FloatArray, times: FloatArray) -> dict[str, Any]:
+    """Return where the slider of friction stands along the obstacle, in every frame.
+
+    It is NaN while there is none; nothing is returned of stops without, and of those whose
+    sliding no one direction tells.
+    """
+    if "anchor" not in getattr(law, "internal_variables", ()):
+        return {}
+    from bumpstop.laws.friction import sliding_coordinate
+
+    basis = response.problem.basis
+    along = sliding_coordinate(basis, law.coordinate, getattr(law, "sliding", None))
+    if along.terms is not None:
+        return {}
+    places = response.sample("internal_variable", law.name, "anchor", times=times)
+    return {"slider": {"direction": view @ np.array(along.direction), "places": places}}
 
 
 def _along(response: Response, law: Law, direction: FloatArray, times: FloatArray) -> FloatArray:

@@ -11,6 +11,8 @@ from bumpstop.report.plotting import Axis, boundary, layout_of, line_trace
 from bumpstop.report.scales import scale_for, with_unit
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from bumpstop.arguments import FloatArray
     from bumpstop.report.figures import Figure
     from bumpstop.response import Response
@@ -49,15 +51,19 @@ def force_loop(response: Response, law: str) -> Figure:
     if kind != "stop":
         called = " ".join(dict.fromkeys([kind, law]))
         title = f"{called[:1].upper()}{called[1:]}: what it resists", _lost(response, law)
-        return _loop(("Deformation", "Resisting force"), title, times, gap, -force)
+        return _loop(("Deformation", "Resisting force"), title, times, {"Path": gap}, -force)
     title = f"Stop {law}: force against depth", _lost(response, law)
-    figure = _loop(("Depth beyond contact", "Force"), title, times, -gap, force)
+    figure = _loop(("Depth beyond contact", "Force"), title, times, {"Path": -gap}, force)
     figure["layout"]["shapes"] = [boundary(0.0)]
     return figure
 
 
 def friction_loop(response: Response, stop: str) -> Figure:
     """Draw the friction force of a stop against how far its node has slid along the obstacle.
+
+    A stop whose friction sticks by a spring remembers where the slider at its end stands; the
+    force is drawn against that, too. The slider stays while it sticks, and goes with the node,
+    behind by what the spring gives, while it slips.
 
     Raises
     ------
@@ -72,10 +78,12 @@ def friction_loop(response: Response, stop: str) -> Figure:
         hint = "those that rub in two directions have no single loop"
         raise InputError("does not rub in one direction", key="stop", value=stop, hint=hint)
     times = _instants(response, stop)
-    place = response.motion(0, times) @ row
+    ways = {"Node": response.motion(0, times) @ row}
+    if "anchor" in getattr(of, "internal_variables", ()):
+        ways["Slider"] = response.sample("internal_variable", stop, "anchor", times=times)
     force = response.sample("friction_force", stop, times=times)
     title = f"Stop {stop}: friction against sliding", "What resists the sliding"
-    return _loop(("Way along the obstacle", "Friction"), title, times, place, -force)
+    return _loop(("Way along the obstacle", "Friction"), title, times, ways, -force)
 
 
 def _instants(response: Response, law: str) -> FloatArray:
@@ -89,23 +97,31 @@ def _loop(
     names: tuple[str, str],
     title: tuple[str, str],
     times: FloatArray,
-    way: FloatArray,
+    ways: Mapping[str, FloatArray],
     force: FloatArray,
 ) -> Figure:
-    x, y = Axis(names[0], scale_for("m", way)), Axis(names[1], scale_for("N", force))
-    kept = np.union1d(*(thin(each, at_most=MOST_POINTS) for each in (way, force)))
+    """Draw a force against one way or several, each with what it is called."""
+    every = np.concatenate(list(ways.values()))
+    x, y = Axis(names[0], scale_for("m", every)), Axis(names[1], scale_for("N", force))
     clock = scale_for("s", times)
-    path = line_trace(x.scaled(way[kept]), y.scaled(force[kept]), "Path", "computed", y)
-    path["line"]["width"] = 1.4
-    path["customdata"] = times[kept] * clock.factor
-    path["hovertemplate"] = (
-        f"%{{y:.5~g}} {y.scale.unit} at %{{x:.5~g}} {x.scale.unit}"
-        f"<br>at %{{customdata:.5~g}} {clock.unit}<extra></extra>"
-    )
+    paths = []
+    for (name, way), role in zip(ways.items(), ("computed", "stored"), strict=False):
+        # No point where there is no way, as of a slider out of contact: the line has a gap there.
+        curves = (np.nan_to_num(way), force)
+        kept = np.union1d(*(thin(each, at_most=MOST_POINTS) for each in curves))
+        path = line_trace(x.scaled(way[kept]), y.scaled(force[kept]), name, role, y)
+        path["line"]["width"] = 1.4
+        path["customdata"] = times[kept] * clock.factor
+        path["hovertemplate"] = (
+            f"%{{y:.5~g}} {y.scale.unit} at %{{x:.5~g}} {x.scale.unit}"
+            f"<br>at %{{customdata:.5~g}} {clock.unit}<extra>{name if ways.keys() - {name} else ''}"
+            "</extra>"
+        )
+        paths.append(path)
     layout = layout_of(title[0], x, y, title[1])
     layout["hovermode"] = "closest"
-    layout["showlegend"] = False
-    return {"data": [path], "layout": layout}
+    layout["showlegend"] = len(paths) > 1
+    return {"data": paths, "layout": layout}
 
 
 def _lost(response: Response, law: str) -> str:

@@ -27,7 +27,8 @@ def sector_figure(array: xr.DataArray) -> Figure:
     values = np.asarray(array.values, dtype=float)
     scale = scale_for(str(array.attrs["units"]), values)
     degrees = np.degrees(array["angle"].values)
-    title = str(array.attrs["long_name"]).capitalize()
+    title = str(array.attrs.get("title", array.attrs["long_name"]))
+    title = title[:1].upper() + title[1:]
     bars = {
         "type": "barpolar",
         "r": values * scale.factor,

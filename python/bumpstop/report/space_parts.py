@@ -57,7 +57,7 @@ class SpaceDrawing:
     @property
     def moving_traces(self) -> list[int]:
         """Which traces change from frame to frame: all but the first."""
-        return [1, 2, 3, 4, 5]
+        return [1, 2, 3, 4, 5, 6]
 
     def traces(self, frame: int) -> list[dict[str, Any]]:
         """Return all traces, the moving ones as they are in a frame."""
@@ -65,7 +65,7 @@ class SpaceDrawing:
         return [still, *self.moving(frame)]
 
     def moving(self, frame: int) -> list[dict[str, Any]]:
-        """Return beams, nodes, laws at rest, laws in contact, and forces in a frame."""
+        """Return beams, nodes, laws at rest, laws in contact, forces and sliders in a frame."""
         places = self.places[frame]
         at_rest: list[FloatArray] = []
         pressed: list[FloatArray] = []
@@ -82,6 +82,7 @@ class SpaceDrawing:
             self._line(_joined(at_rest), "muted", 3),
             self._line(_joined(pressed), "contact", 4),
             self._line(_joined(forces), "contact", 5),
+            self._line(_joined(self._sliders(frame)), "stored", 5),
         ]
 
     def _beams(self, places: FloatArray) -> FloatArray:
@@ -141,14 +142,36 @@ class SpaceDrawing:
         if kind == "link":
             foot = rest - (BEHIND * self.size) * law["normal"] if other is None else other
             return self._coil(here, foot)
-        surface = law["surfaces"][frame] if "surfaces" in law else law["surface"]
-        depth = max(0.0, -float(law["gaps"][frame])) if law["symbol"] != "rigid" else 0.0
-        plate = rest + self.scale * (surface - depth) * law["normal"]
+        plate = rest + self.scale * self._surface(law, frame) * law["normal"]
         if other is None:
             ground = rest + self.scale * law["lowest"] * law["normal"]
             other = ground - (BEHIND * self.size) * law["normal"]
         face = self._plate(plate, law["normal"])
         return face if law["symbol"] == "rigid" else _joined([face, self._coil(plate, other)])
+
+    def _sliders(self, frame: int) -> list[FloatArray]:
+        """Return a small diamond (5, 3) on each obstacle where the slider of friction stands."""
+        drawn = []
+        for law in self.scene["laws"]:
+            slider = law.get("slider")
+            if slider is None or not np.isfinite(slider["places"][frame]):
+                continue
+            shift = slider["places"][frame] * slider["direction"]
+            shift = shift + self._surface(law, frame) * law["normal"]
+            centre = self.rest[law["point"]] + self.scale * shift
+            if law["other"] >= 0:
+                centre = centre + self.places[frame, law["other"]] - self.rest[law["other"]]
+            along = slider["direction"]
+            across = np.cross(law["normal"], along)
+            half = 0.5 * PLATE * self.size
+            drawn.append(centre + half * np.array([along, across, -along, -across, along]))
+        return drawn
+
+    def _surface(self, law: dict[str, Any], frame: int) -> float:
+        """Return where the face of a plane obstacle is along its normal, pressed as it is."""
+        surface = law["surfaces"][frame] if "surfaces" in law else law["surface"]
+        depth = max(0.0, -float(law["gaps"][frame])) if law["symbol"] != "rigid" else 0.0
+        return float(surface - depth)
 
     def _plate(self, centre: FloatArray, normal: FloatArray) -> FloatArray:
         first, second = _across(normal)

@@ -19,6 +19,8 @@ from bumpstop.report.scene import motion_scene
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    import xarray as xr
+
     from bumpstop.post.references import Check, Reference
     from bumpstop.post.results.reading import Result
     from bumpstop.problem import Problem
@@ -113,11 +115,8 @@ class Variant:
         yield figures.phase_portrait(response, *self.places[0])
         yield figures.energy_ledger(response)
         for reading in self.readings.values():
-            if reading.figures:
-                from bumpstop.report.arrays import array_figure
-
-                for array, log in reading.figures:
-                    yield array_figure(array, log=log)
+            for array, log in reading.figures:
+                yield _array_drawn(array, log)
 
     def _motion(self) -> dict[str, Any]:
         """Return what stands around the moving picture."""
@@ -153,6 +152,17 @@ class Variant:
             yield f"Not drawn, since no one direction tells it: {', '.join(undrawn)}."
 
 
+def _array_drawn(array: xr.DataArray, log: str) -> Figure:
+    """Return the figure of what a result reads: around its circle what is told by sectors."""
+    if array.dims == ("angle",):
+        from bumpstop.report.sectors import sector_figure
+
+        return sector_figure(array)
+    from bumpstop.report.arrays import array_figure
+
+    return array_figure(array, log=log)
+
+
 def watched_places(problem: Problem, references: Sequence[Reference]) -> list[tuple[str, str]]:
     """Return the nodes and dofs worth a figure, the most interesting one first.
 
@@ -176,12 +186,16 @@ def caption(name: str, figure: Figure) -> dict[str, str]:
     """Return what the template puts above a figure, and how it is called."""
     layout = figure["layout"]
     # plotly's texts are HTML; the template escapes them again.
-    across, up = (unescape(layout[axis]["title"]["text"]) for axis in ("xaxis", "yaxis"))
+    title = unescape(layout["title"]["text"])
+    label = f"Plot of {title}, around its circle"
+    if "polar" not in layout:
+        across, up = (unescape(layout[axis]["title"]["text"]) for axis in ("xaxis", "yaxis"))
+        label = f"Plot of {up} against {across}"
     return {
         "id": name,
-        "title": unescape(layout["title"]["text"]),
+        "title": title,
         "note": unescape(layout["title"].get("subtitle", {}).get("text", "")),
-        "label": f"Plot of {up} against {across}",
+        "label": label,
     }
 
 

@@ -13,14 +13,12 @@ from bumpstop.post.results.reading import Drawn, Fact, Reading, check_span, chec
 from bumpstop.quantities import MOST_BLOCKS, MOST_CLASSES, STATISTICS, Quantity
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from bumpstop.post.scars import Scar
     from bumpstop.post.wear import WearLaw
     from bumpstop.problem import Problem
     from bumpstop.response import Response
 
-__all__ = ["Statistics", "Wear"]
+__all__ = ["SectorWork", "Statistics", "Wear"]
 
 
 @dataclass(frozen=True)
@@ -114,5 +112,46 @@ class Wear:
         return Reading([rate, *last], drawn)
 
 
-def _quantity(array: xr.DataArray) -> Quantity:
-    return Quantity(str(array.attrs["units"]), f"{array.attrs['long_name']} in the end")
+@dataclass(frozen=True)
+class SectorWork:
+    """Work rate of a round contact by sectors of its circle; see `work_by_sector`."""
+
+    name: str
+    _: KW_ONLY
+    stops: Sequence[str]
+    sectors: int = 8
+    axes: Sequence[str] = ("dy", "dz")
+    centre: tuple[float, float] = (0.0, 0.0)
+    start: float = 0.0
+    end: float | None = None
+
+    def check(self, problem: Problem) -> None:
+        """Raise where the stops are none of one node, or the time is not within the run."""
+        from bumpstop.post.sectors import MOST_SECTORS, check_plane, check_stops
+
+        check_stops(problem, self.stops)
+        check_plane(self.axes)
+        count("sectors", self.sectors, most=MOST_SECTORS)
+        check_span(self.start, self.end, problem)
+
+    def read(self, response: Response) -> Reading:
+        """Read the work rate of each sector, and which takes most."""
+        from bumpstop.post.sectors import work_by_sector
+
+        found = work_by_sector(
+            response,
+            self.stops,
+            sectors=self.sectors,
+            axes=self.axes,
+            centre=self.centre,
+            start=self.start,
+            end=self.end,
+        )
+        where = ", ".join(self.stops)
+        most = int(np.argmax(found.values))
+        total = Fact(Quantity("W", f"work rate at {where}"), float(found.sum()))
+        largest = Fact(Quantity("W", "largest work rate of a sector"), float(found[most]))
+        angle = Quantity("rad", f"middle of that sector, {found['angle'].attrs['long_name']}")
+        titled = found.assign_attrs(title=f"Work rate by sector at {where}")
+        facts = [total, largest, Fact(angle, float(found["angle"][most]))]
+        return Reading(facts if total.value > 0.0 else [total], [Drawn(titled)])

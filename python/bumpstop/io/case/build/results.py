@@ -46,6 +46,8 @@ def _result(name: str, table: tables.ResultTable) -> Result:
         case "wear":
             kept = {key: given[key] for key in ("stop", "service", "start", "end")}
             return contacts.Wear(name, law=_wear_law(table), scar=_scar(table), **kept)
+        case "work_by_sector":
+            return contacts.SectorWork(name, **given)
         case "spectrum":
             return _spectrum(name, table)
         case "response_spectrum":

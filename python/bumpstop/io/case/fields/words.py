@@ -21,6 +21,7 @@ __all__ = [
     "LinkedNodes",
     "LoadNames",
     "Name",
+    "Names",
     "Node",
     "NodeName",
     "Nodes",
@@ -113,6 +114,10 @@ def _read_dofs(value: object) -> list[str]:
     return read_list(value, choice(*DOFS).read, "dofs")
 
 
+def _read_names(value: object) -> list[str]:
+    return [_read_name(value)] if isinstance(value, str) else read_list(value, _read_name, "names")
+
+
 def _read_load_names(value: object) -> list[str] | str:
     return "all" if value == "all" else read_list(value, _read_name, "names of loads")
 
@@ -137,6 +142,7 @@ Name = Annotated[str, Plain(_read_name, {**_STRING, "pattern": f"^{_NAME}$"})]
 BeamName = Annotated[
     str, Plain(_read_beam, {**_STRING, "pattern": f"^{_PATH}$", "examples": ["AB", "left.AB"]})
 ]
+Names = Annotated[list[str], Plain(_read_names, {"anyOf": [_STRING, _STRINGS]})]
 NodeName = Annotated[str, Plain(_read_node_name, {**_STRING, "pattern": f"^{_NAME}$"})]
 Node = Annotated[str, Plain(read_node, {**_STRING, "examples": ["B", "AB.3", "AB@0.462 m"]})]
 Nodes = Annotated[list[str], Plain(_read_nodes, {"anyOf": [{"const": "all"}, _STRINGS]})]

@@ -16,7 +16,16 @@ from bumpstop.io.case.fields.quantities import (
     Time,
     Times,
 )
-from bumpstop.io.case.fields.words import BeamName, Name, Node, OneDof, Text, choice
+from bumpstop.io.case.fields.words import (
+    BeamName,
+    Dofs,
+    Name,
+    Names,
+    Node,
+    OneDof,
+    Text,
+    choice,
+)
 from bumpstop.io.case.tables.table import Field, Kinds, Table
 from bumpstop.post.response_spectrum import QUANTITIES
 from bumpstop.post.results.spectra import SPECTRA
@@ -79,6 +88,18 @@ class WearTable(Window):
     )
     hole_radius: PositiveLength | None = Field(
         default=None, description="Radius in m of the hole; where left out the scar is a flat"
+    )
+
+
+class SectorTable(Window):
+    """Work rate of a round contact by sectors of its circle."""
+
+    type: Literal["work_by_sector"] = Field(description="Kind of result")
+    stops: Names = Field(description="The stops that make up the obstacle, all at one node")
+    sectors: Count = Field(default=8, description="Equal sectors, from the first axis on")
+    axes: Dofs = Field(default=["dy", "dz"], description="The dofs that span its plane")
+    centre: Length2 = Field(
+        default=(0.0, 0.0), description="Its centre along them, from the node at rest, in m"
     )
 
 
@@ -163,6 +184,7 @@ class LyapunovTable(Table):
 ResultTable = Annotated[
     StatisticsTable
     | WearTable
+    | SectorTable
     | SpectrumTable
     | ResponseSpectrumTable
     | SectionForcesTable

@@ -89,6 +89,7 @@ class PlaneDrawing extends LawDrawing {
     if (law.other < 0 && !law.surfaces) this.showGround(this.groundAt(law.surface));
     if (law.symbol !== "rigid") this.spring = svg("path", { class: "spring" }, this.group);
     this.plate = svg("path", { class: "plate" }, this.group);
+    if (law.slider) this.slider = svg("path", { class: "slider" }, this.group);
     const surface = this.away(this.reach - law.surface * this.pixels);
     this.placeLabel(this.away(this.groundAt(law.surface)), surface);
   }
@@ -131,8 +132,21 @@ class PlaneDrawing extends LawDrawing {
     const ends = [-1, 1].map((side) => [plate[0] + side * across[0], plate[1] + side * across[1]]);
     set(this.plate, { d: law.symbol === "sphere" ? this.bulge(plate, ends) : pathThrough(ends) });
     this.group.dataset.contact = closed ? "closed" : "open";
+    if (this.slider) set(this.slider, { d: this.sliderPath(plate, motion, modal) });
     const share = motion.forceAt(index, motion.frame) / motion.largestForce;
     forceArrow(this.arrow, plate, this.normal, share, 2 * this.reach + 3);
+  }
+
+  // A diamond on the obstacle where the slider of friction stands; nothing where there is none.
+  sliderPath(plate, motion, modal) {
+    const { law, stage } = this;
+    const place = law.slider.places[Math.round(motion.frame)];
+    if (!Number.isFinite(place)) return "";
+    const pixels = stage.scale * stage.magnification;
+    const carried = law.other >= 0 ? stage.displacement(law.other, modal) : [0, 0];
+    const [right, up] = carried.map((part, axis) => part + place * law.slider.direction[axis]);
+    const [x, y] = [plate[0] + right * pixels, plate[1] - up * pixels];
+    return `M${x - 5} ${y}L${x} ${y - 5}L${x + 5} ${y}L${x} ${y + 5}Z`;
   }
 
   // A round face whose top is where a plate would be.

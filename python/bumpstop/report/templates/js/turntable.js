@@ -39,7 +39,11 @@ class Turntable {
       }
     });
     const flat = (vector) => [dot(right, vector), dot(up, vector)];
-    const across = (part) => ({ ...part, normal: flat(part.normal) });
+    const across = (part) => {
+      const seen = { ...part, normal: flat(part.normal) };
+      if (part.slider) seen.slider = { ...part.slider, direction: flat(part.slider.direction) };
+      return seen;
+    };
     return {
       ...scene,
       points,
