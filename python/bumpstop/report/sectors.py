@@ -38,15 +38,24 @@ def sector_figure(array: xr.DataArray) -> Figure:
         "hovertemplate": f"%{{r:.4~g}} {scale.unit}<br>at %{{theta:.4~g}}°<extra></extra>",
     }
     axis = {"gridcolor": LIGHT["grid"], "linecolor": LIGHT["axis"]}
+    where = str(array["angle"].attrs.get("long_name", ""))
     layout = {
-        "title": {"text": f"{title} ({scale.unit})", "x": 0.0, "xref": "paper"},
+        "title": {
+            "text": f"{title} ({scale.unit})",
+            "x": 0.0,
+            "xref": "paper",
+            "subtitle": {
+                "text": where[:1].upper() + where[1:],
+                "font": {"color": LIGHT["muted"]},
+            },
+        },
         "font": {"family": FONT, "size": 13, "color": LIGHT["ink"]},
         "paper_bgcolor": LIGHT["paper"],
         "showlegend": False,
-        "margin": {"l": 40, "r": 40, "t": 64, "b": 32},
+        "margin": {"l": 40, "r": 40, "t": 84, "b": 40},
         "polar": {
             "bgcolor": LIGHT["paper"],
-            "radialaxis": axis | {"rangemode": "tozero"},
+            "radialaxis": axis | {"rangemode": "tozero", "nticks": 5},
             "angularaxis": axis | {"rotation": 0, "direction": "counterclockwise"},
         },
     }

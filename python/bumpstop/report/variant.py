@@ -202,5 +202,6 @@ def caption(name: str, figure: Figure) -> dict[str, str]:
 def untitled(figure: Figure) -> Figure:
     """Return a figure without its heading, which stands in its caption."""
     layout = {key: value for key, value in figure["layout"].items() if key != "title"}
-    top = 40 if layout.get("showlegend", True) else 12
+    # A circle has words above it, and others a legend.
+    top = 40 if layout.get("showlegend", True) or "polar" in layout else 12
     return {"data": figure["data"], "layout": layout | {"margin": layout["margin"] | {"t": top}}}

@@ -4,6 +4,8 @@ const PAPER_GUTTER = 24;
 
 const plotConfig = {
   displaylogo: false,
+  // Where nothing hovers plotly would show its tools for good, over the legend.
+  displayModeBar: window.matchMedia("(hover: hover)").matches ? "hover" : false,
   responsive: true,
   // Named one by one: plotly's own set has one that sends the data to a server.
   modeBarButtons: [["toImage", "zoom2d", "pan2d", "resetScale2d"]],
