@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from bumpstop.response import Response
 
-__all__ = ["MOTIONS", "sampled"]
+__all__ = ["MOTIONS", "kept_rows", "sampled"]
 
 MOTIONS = ("displacement", "velocity", "acceleration")
 """Position in this list is the derivative that the core is asked for."""
@@ -94,13 +94,26 @@ def _gauge_strain(response: Response, name: str, times: FloatArray) -> FloatArra
     return own + carried_gauge(response.problem, gauge, times)
 
 
+def kept_rows(response: Response, rows: FloatArray) -> FloatArray:
+    """Return what rows of the basis (..., N) are by the coordinates that `Response.motion` tells.
+
+    Raises
+    ------
+    InputError
+        If they need coordinates of a full model that were not kept.
+    """
+    if response.kept is None:
+        return rows
+    known = rows[..., response.kept]
+    if np.count_nonzero(rows) != np.count_nonzero(known):
+        what = "was not kept: there are more dofs and steps than memory has room for"
+        raise InputError(what, key="target", hint="name the place among the outputs")
+    return known
+
+
 def _along(response: Response, row: FloatArray, derivative: int, times: FloatArray) -> FloatArray:
     """Return the motion (time,) of what a row of the basis (N,) stands for."""
-    if response.kept is not None:
-        if np.count_nonzero(row) != np.count_nonzero(row[response.kept]):
-            what = "was not kept: there are more dofs and steps than memory has room for"
-            raise InputError(what, key="target", hint="name the place among the outputs")
-        row = row[response.kept]
+    row = kept_rows(response, row)
     if MOTIONS[derivative] != "acceleration":
         return response.history.project(row, times, derivative)
     # From the equations of motion, which have the laws' forces to the last digit.

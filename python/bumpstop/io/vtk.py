@@ -57,6 +57,10 @@ def write_vtk(response: Response, path: str | PathLike[str]) -> None:
         If the basis knows no places, or the file cannot be written there.
     """
     nodes, positions = _places(response.problem.basis)
+    if response.kept is not None:
+        what = "needs the motion of all nodes, and the run has kept that of a few dofs alone"
+        hint = "a smaller model or larger steps leave room for all; or write another format"
+        raise InputError(what, key="form", value="vtk", hint=hint)
     lines = _lines(response.problem.basis, nodes)
     steps, moved = len(response.instants), 8 * 3 * len(FIELDS) * len(nodes)
     size = steps * (moved + PLACES) + 8 * PLACES * len(nodes)

@@ -12,6 +12,7 @@ from bumpstop.errors import InputError
 from bumpstop.laws.coordinate import Coordinate, unit
 from bumpstop.laws.friction import component_row, sliding_coordinate
 from bumpstop.projection import TRANSLATIONS
+from bumpstop.sampling import kept_rows
 
 if TYPE_CHECKING:
     from bumpstop.problem import Law
@@ -71,7 +72,7 @@ def _seen(
     rows: FloatArray,
     derivative: int,
 ) -> Callable[[FloatArray], FloatArray]:
-    problem = response.problem
+    problem, rows = response.problem, kept_rows(response, rows)
     if not problem.supports_move:
         return lambda times: response.motion(derivative, times) @ rows.T
     from bumpstop.carried import carried_past

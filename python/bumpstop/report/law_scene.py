@@ -10,6 +10,7 @@ from bumpstop.errors import InputError
 from bumpstop.laws.around_axis import StopAroundAxis
 from bumpstop.projection import TRANSLATIONS
 from bumpstop.report.curves import contact_spans
+from bumpstop.report.followed import known_basis
 from bumpstop.report.orbit import along_axis
 from bumpstop.report.scales import significant, with_unit
 
@@ -170,7 +171,7 @@ def _round(
     law: StopAroundAxis, response: Response, view: FloatArray, times: FloatArray
 ) -> dict[str, Any]:
     """Return an obstacle about an axis as seen from its node at rest, and the force in space."""
-    basis = response.problem.basis
+    basis = known_basis(response)
     places = law.places(basis, response.motion(0, times))
     origin = law.origin(basis)
     outline = _near(law, places)

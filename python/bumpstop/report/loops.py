@@ -9,6 +9,7 @@ import numpy as np
 from bumpstop.report.curves import MOST_POINTS, contact_spans, instants, thin
 from bumpstop.report.plotting import Axis, boundary, layout_of, line_trace
 from bumpstop.report.scales import scale_for, with_unit
+from bumpstop.sampling import kept_rows
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -78,7 +79,7 @@ def friction_loop(response: Response, stop: str) -> Figure:
         hint = "those that rub in two directions have no single loop"
         raise InputError("does not rub in one direction", key="stop", value=stop, hint=hint)
     times = _instants(response, stop)
-    ways = {"Node": response.motion(0, times) @ row}
+    ways = {"Node": response.motion(0, times) @ kept_rows(response, row)}
     if "anchor" in getattr(of, "internal_variables", ()):
         ways["Slider"] = response.sample("internal_variable", stop, "anchor", times=times)
     force = response.sample("friction_force", stop, times=times)

@@ -9,6 +9,7 @@ import numpy as np
 
 from bumpstop.laws.around_axis import StopAroundAxis
 from bumpstop.report.carried import carried_motion
+from bumpstop.report.followed import followed_motion
 from bumpstop.report.law_scene import drawn_springs, law_scenes
 from bumpstop.report.outline import UNSEEN, view_of
 from bumpstop.report.playing import frame_times, magnifications, paces
@@ -66,9 +67,10 @@ def motion_scene(
     problem = response.problem
     times = frame_times(response, most)
     shapes, amplitudes = carried_motion(problem, drawing, times)
+    drawing, modal = followed_motion(response, drawing, times)
     if amplitudes.shape[1]:
         drawing = replace(drawing, shapes=np.concatenate([drawing.shapes, shapes], axis=2))
-    modal = np.hstack([response.motion(0, times), amplitudes])
+        modal = np.hstack([modal, amplitudes])
     travel = np.einsum("pam,fm->fpa", drawing.shapes, modal[:: max(len(modal) // 500, 1)])
     reach = np.abs(travel).max(axis=(0, 1))
     if view is None:

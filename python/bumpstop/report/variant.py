@@ -10,6 +10,7 @@ import numpy as np
 from bumpstop.laws.around_axis import StopAroundAxis
 from bumpstop.post.results.reading import read_result
 from bumpstop.report import figures, tables
+from bumpstop.report.followed import unknown_places
 from bumpstop.report.law_scene import undrawn_laws
 from bumpstop.report.loops import force_loop, friction_loop
 from bumpstop.report.orbit import orbit
@@ -66,6 +67,7 @@ class Variant:
         self.response = response
         self.places = watched_places(response.problem, references)
         self.readings = {result.name: read_result(result, response) for result in results}
+        self.drawing = drawing
         self.scene = motion_scene(response, self.places[0], drawing)
         self.figures = {
             f"{identity}-figure-{number}": figure
@@ -147,6 +149,11 @@ class Variant:
         yield f"The curve is {dof} of {node}{'; shaded while a stop is closed.' if stops else '.'}"
         if "vertical" in self.scene:
             yield "Drag it, or use the arrow keys on it, to turn it."
+        if unknown_places(self.response, self.drawing).any():
+            yield (
+                "The run has kept the motion of a few dofs alone: beams that need others are drawn "
+                "as they are at rest."
+            )
         undrawn = undrawn_laws(self.response.problem)
         if undrawn:
             yield f"Not drawn, since no one direction tells it: {', '.join(undrawn)}."
