@@ -13,9 +13,22 @@ from pathlib import Path
 
 from bumpstop.errors import InputError
 
-__all__ = ["remove_leftovers", "temporary_name", "written_whole"]
+__all__ = ["file_path", "remove_leftovers", "temporary_name", "written_whole"]
 
 _numbers = count()
+
+
+def file_path(path: object) -> Path:
+    """Return the name of a file as a path.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    if not isinstance(path, str | os.PathLike) or not str(path).strip():
+        raise InputError("must be the name of a file", key="path", value=path)
+    return Path(path)
 
 
 @contextmanager
@@ -39,7 +52,7 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     >>> [found.name for found in folder.iterdir()]
     ['answer.txt']
     """
-    final = Path(path)
+    final = file_path(path)
     if final.is_dir():
         raise InputError("is a folder", file=str(final), hint="give the name of a file in it")
     part = temporary_name(final)

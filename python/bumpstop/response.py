@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, SupportsIndex
 
-from bumpstop.arguments import FloatArray, one_of
+from bumpstop.arguments import FloatArray, count, one_of
 from bumpstop.instants import Grid, checked_times
 from bumpstop.labelled import modes_over_time, over_time
 from bumpstop.quantities import STATE, dof_units
@@ -188,8 +188,9 @@ class Response:
         >>> [(start, len(block.times)) for start, block in swing.blocks(4)]
         [(0, 4), (4, 4), (8, 3)]
         """
-        for start in range(0, len(self.instants), most):
-            yield start, self.at(self.instants[start : start + most])
+        size = count("most", most)
+        for start in range(0, len(self.instants), size):
+            yield start, self.at(self.instants[start : start + size])
 
     # Plain arrays: what everything inside uses, so that a run needs no xarray or pandas.
 

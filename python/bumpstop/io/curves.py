@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
 
 from bumpstop.errors import InputError
+from bumpstop.files import file_path
 from bumpstop.io.columns import numbers, texts
 from bumpstop.io.netcdf_format import CHECKSUM, Variable
 from bumpstop.io.reading import in_file
@@ -95,7 +95,7 @@ def read_curves(path: str | PathLike[str]) -> dict[str, list[xr.DataArray]]:
         If the file cannot be read or is damaged.
     """
     found: dict[str, list[xr.DataArray]] = {}
-    with in_file(Path(path)):
+    with in_file(file_path(path)):
         try:
             with h5py.File(path, "r") as content:
                 for name in content:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop.arguments import one_of
 from bumpstop.errors import InputError
+from bumpstop.files import file_path
 from bumpstop.io import FORMATS
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ def export(response: Response, path: str | PathLike[str], form: str | None = Non
         missing, or the file cannot be written there.
     """
     if form is None:
-        form = _told_by(Path(path))
+        form = _told_by(file_path(path))
     one_of("format", form, tuple(FORMATS))
     module = import_module(f"bumpstop.io.{form}")
     getattr(module, f"write_{form}")(response, path)

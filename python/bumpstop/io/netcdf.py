@@ -88,7 +88,11 @@ def write_netcdf(
     InputError
         If the file cannot be written there.
     """
-    attributes = {"title": title, "case": case, "variant": variant} | _provenance(response)
+    told = {"title": title, "case": case, "variant": variant}
+    for key, text in told.items():
+        if text is not None and not isinstance(text, str):
+            raise InputError("must be a text", key=key, value=text)
+    attributes = told | _provenance(response)
     told = {name: value for name, value in attributes.items() if value is not None}
     length, words = len(response.instants), states_of(response)
     blocks = response.blocks(_block(response))

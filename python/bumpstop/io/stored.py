@@ -12,6 +12,7 @@ import h5py
 
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import BumpstopError, InputError
+from bumpstop.files import file_path
 from bumpstop.instants import Grid
 from bumpstop.io.columns import Instants, numbers, texts
 from bumpstop.io.reading import in_file
@@ -52,7 +53,7 @@ def read_netcdf(path: str | PathLike[str]) -> Response:
     InputError
         If the file cannot be read, is damaged, or holds no problem.
     """
-    file = Path(path)
+    file = file_path(path)
     with in_file(file):
         try:
             return _read(file)
@@ -86,7 +87,7 @@ def read_results(path: str | PathLike[str]) -> pd.DataFrame:
     import pandas as pd
 
     columns: dict[str, Any] = {name: [] for name in RESULT_COLUMNS}
-    with in_file(Path(path)):
+    with in_file(file_path(path)):
         try:
             with h5py.File(path, "r") as content:
                 if "result_value" in content:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from bumpstop.arguments import FloatArray, not_negative
 from bumpstop.errors import InputError
 from bumpstop.post.impacts import impacts_of
+from bumpstop.post.of_run import of_run
 from bumpstop.post.peaks import largest_forces
 from bumpstop.post.quadrature import integrals, kinks
 from bumpstop.post.spans import Spans, cut_spans, is_loaded, state_spans
@@ -55,6 +56,7 @@ def contact_forces(response: Response, stop: str) -> xr.DataArray:
     )
 
 
+@of_run
 def contact_impacts(
     response: Response, stop: str, *, threshold: float = 0.0, rest: float = 0.0
 ) -> pd.DataFrame:

@@ -28,6 +28,7 @@ from bumpstop.laws.rigid_stop import RigidStop
 from bumpstop.laws.spring import SpringLaw
 from bumpstop.laws.stop import Stop
 from bumpstop.post.impacts import impacts_of
+from bumpstop.post.of_run import of_run
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,6 +83,7 @@ class LyapunovExponents:
         )
 
 
+@of_run
 def lyapunov_exponents(
     response: Response, *, exponents: int = 1, start: float = 0.0
 ) -> LyapunovExponents:

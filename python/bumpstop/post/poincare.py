@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, count, finite, not_negative, positive
+from bumpstop.arguments import FloatArray, count, finite, not_negative, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.post.impacts import impacts_of
+from bumpstop.post.of_run import of_run
 from bumpstop.quantities import dof_units
+from bumpstop.structure.dofs import DOFS
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,6 +27,7 @@ MOST_STROBES = 10_000_000
 """Instants of a section at most."""
 
 
+@of_run
 def stroboscopic_section(
     response: Response,
     node: str,
@@ -65,7 +68,7 @@ def stroboscopic_section(
     found = {}
     for quantity in ("displacement", "velocity"):
         attributes = {
-            "units": dof_units(quantity, dof),
+            "units": dof_units(quantity, one_of("dof", dof, DOFS)),
             "long_name": f"{quantity} of {node} along {dof}",
         }
         values = response.sample(quantity, node, dof, times=times)
@@ -74,6 +77,7 @@ def stroboscopic_section(
     return xr.Dataset(found, coords=where, attrs={"period": period, "phase": phase})
 
 
+@of_run
 def impact_section(
     response: Response, stop: str, *, period: float | None = None, start: float = 0.0
 ) -> pd.DataFrame:
@@ -185,6 +189,7 @@ class Periodicity:
         return self.multiple is not None
 
 
+@of_run
 def periodicity(
     response: Response,
     period: float,

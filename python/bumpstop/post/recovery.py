@@ -15,13 +15,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, finite
+from bumpstop.arguments import FloatArray, boolean, finite, name, one_of
 from bumpstop.carried import carried_form
 from bumpstop.errors import InputError
+from bumpstop.instants import checked_times
 from bumpstop.labelled import over_time, time_coordinate
 from bumpstop.modal.unit_motion import unit_motion
 from bumpstop.post.force_field import ForceField
 from bumpstop.post.forces import Forces
+from bumpstop.post.of_run import of_run
 from bumpstop.projection import along
 from bumpstop.quantities import dof_units
 from bumpstop.structure.cut import Cut
@@ -54,6 +56,7 @@ SECTION_FORCES = {
 RESULTANTS = ("inertia", "damping", "load", "law", "elastic", "reaction", "residual")
 
 
+@of_run
 def recovery(response: Response, *, static_correction: bool = True) -> Recovery:
     """Return what reads forces and motions of the structure out of a run.
 
@@ -87,7 +90,7 @@ def recovery(response: Response, *, static_correction: bool = True) -> Recovery:
     >>> print(f"{bs.recovery(run).section_forces('AB', 0.0).My.values[-1]:.9f}")
     6.000000000
     """
-    return Recovery(response, bool(static_correction))
+    return Recovery(response, boolean("static_correction", static_correction))
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +115,7 @@ class Recovery:
         InputError
             If the structure has no such place.
         """
-        form = self.forces.model.displacement_form(node, dof)
+        form = self.forces.model.displacement_form(name("node", node), one_of("dof", dof, DOFS))
         return over_time(
             "displacement",
             self.response.times,
@@ -189,17 +192,20 @@ class Recovery:
         """
         import xarray as xr
 
+        name("beam", beam)
+        if np.size(at) == 0:
+            raise InputError("must be a place along the beam, or several", key="at", value=at)
         one = np.ndim(at) == 0
         places = [finite("at", place) for place in np.atleast_1d(np.asarray(at)).tolist()]
         forms = [self._sections.section_forms(beam, place) for place in places]
         inside = np.stack([self._forces_inside(beam, place) for place in places])
         found = {}
-        for number, (name, (units, words)) in enumerate(SECTION_FORCES.items()):
+        for number, (force, (units, words)) in enumerate(SECTION_FORCES.items()):
             values = np.stack([self.read(each[number]) for each in forms], axis=1)
             values += inside[:, number].T
             attributes = {"units": units, "long_name": f"{words} in {beam}"}
             dims, kept = (("time",), values[:, 0]) if one else (("time", "at"), values)
-            found[name] = (dims, kept, attributes)
+            found[force] = (dims, kept, attributes)
         along_beam = {"units": "m", "long_name": f"distance along {beam}"}
         where = ("at", places, along_beam) if not one else ((), places[0], along_beam)
         coordinates = {"time": time_coordinate(self.response.times), "at": where}
@@ -220,7 +226,7 @@ class Recovery:
 
         self._refuse_parts()
         dofs = {own: number for number, own in enumerate(self.forces.model.dofs)}
-        rows = [dofs.get((node, dof)) for dof in DOFS]
+        rows = [dofs.get((name("node", node), dof)) for dof in DOFS]
         known = [(dof, row) for dof, row in zip(DOFS, rows, strict=True) if row is not None]
         if not known:
             raise InputError("reactions are those of nodes", key="node", value=node)
@@ -278,7 +284,7 @@ class Recovery:
         They are those of supports, and of relations and links. For all else, inertia, damping,
         elastic forces, loads and laws are in equilibrium.
         """
-        instants = np.asarray(times, dtype=np.float64)
+        instants = self._instants(times)
         forces = self.forces
         total = forces.model.stiffness @ self.field(instants)
         total -= forces.inertia(instants) + forces.modal_damping(instants)
@@ -291,7 +297,7 @@ class Recovery:
 
         They are seen from supports that move all together, and else from the still ground.
         """
-        instants = np.asarray(times, dtype=np.float64)
+        instants = self._instants(times)
         total = self.forces.carried(instants)
         total += self.forces.basis.shapes @ self.response.motion(0, instants).T
         for each, shapes in self._corrections:
@@ -350,6 +356,9 @@ class Recovery:
         if not self.static_correction:
             return np.zeros((len(kernel(at)), len(self.response.times)))
         return self.forces.inside(cut, self.response.times)
+
+    def _instants(self, times: ArrayLike) -> FloatArray:
+        return checked_times(times, self.response.problem.duration)
 
     def _refuse_parts(self) -> None:
         """Raise for substructures: forces that their dofs lack are those of joints as well."""

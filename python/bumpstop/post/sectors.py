@@ -10,6 +10,7 @@ import numpy as np
 from bumpstop.arguments import FloatArray, count, listed, one_of, pair, refuse_twins
 from bumpstop.errors import InputError
 from bumpstop.post.contacts import integrals_of
+from bumpstop.post.of_run import of_run
 from bumpstop.post.sliding import motion_at_obstacle, sliding_speed
 from bumpstop.post.spans import spans_within
 from bumpstop.post.wear import sliding_spans, time_window
@@ -28,6 +29,7 @@ SMOOTH = 1e-7
 """Tolerance of the integrals, which begin and end inside contacts, where the sector changes."""
 
 
+@of_run
 def work_by_sector(
     response: Response,
     stops: str | Sequence[str],

@@ -19,6 +19,7 @@ from bumpstop.post.contacts import (
     loaded_spans,
 )
 from bumpstop.post.impacts import impacts_of
+from bumpstop.post.of_run import of_run
 from bumpstop.post.peaks import largest_forces
 from bumpstop.post.spans import Spans, cut_spans, spans_within
 from bumpstop.quantities import COUNTED_IMPACTS, MOST_BLOCKS, MOST_CLASSES, STATISTICS
@@ -152,6 +153,7 @@ class ContactStatistics:
         )
 
 
+@of_run
 def contact_statistics(
     response: Response,
     stop: str,

@@ -11,10 +11,13 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, finite, not_negative, one_of, positive
 from bumpstop.errors import InputError
+from bumpstop.post.of_run import check_run
 from bumpstop.quantities import QUANTITIES, dof_units
 from bumpstop.sampling import MOTIONS
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from bumpstop.response import Response
 
 __all__ = ["SignalStatistics", "Stream", "signal_statistics"]
@@ -66,6 +69,7 @@ class Stream:
         start: float = 0.0,
         end: float | None = None,
     ) -> None:
+        check_run(response)
         duration = response.problem.duration
         last = duration if end is None else finite("end", end)
         first = not_negative("start", start)
@@ -113,6 +117,26 @@ class Stream:
             yield first, self.sample(first, first + size)
 
 
+class _Tabulated:
+    """A signal that is there as an array, read as a stream is."""
+
+    def __init__(self, signal: xr.DataArray) -> None:
+        if getattr(signal, "dims", None) != ("time",) or not len(signal):
+            what = "must be an array over time, or a Stream"
+            raise InputError(what, key="signal", value=type(signal).__name__)
+        self.values = np.asarray(signal.values, dtype=np.float64)
+        self.times = np.asarray(signal["time"].values, dtype=np.float64)
+        self.units = str(signal.attrs.get("units", "1"))
+
+    def instants(self, first: int, end: int) -> FloatArray:
+        """Return the instants of some samples in s."""
+        return self.times[first:end]
+
+    def blocks(self) -> Iterator[tuple[int, FloatArray]]:
+        """Yield all of it at once."""
+        yield 0, self.values
+
+
 @dataclass(frozen=True)
 class SignalStatistics:
     """What `signal_statistics` found, in the unit of the signal.
@@ -142,18 +166,24 @@ class SignalStatistics:
     units: str
 
 
-def signal_statistics(stream: Stream) -> SignalStatistics:
-    """Return mean, scatter and extremes of a signal that is sampled as it is read.
+def signal_statistics(signal: xr.DataArray | Stream) -> SignalStatistics:
+    """Return mean, scatter and extremes of a signal: of an array, or sampled as it is read.
 
     Means and squared deviations of blocks are joined by the pairwise formula of T. F. Chan,
     G. H. Golub and R. J. LeVeque (The American Statistician 37 (1983) 242-247), so that no digits
     are lost to a mean far from zero.
 
+    Parameters
+    ----------
+    signal
+        Over ``time``; or a `Stream`, which takes the memory of a block.
+
     Raises
     ------
     InputError
-        If an instant is outside the simulated time.
+        If it is neither, or an instant is outside the simulated time.
     """
+    stream = signal if isinstance(signal, Stream) else _Tabulated(signal)
     count, mean, deviations = 0, 0.0, 0.0
     low, high = (math.inf, 0), (-math.inf, 0)
     for first, values in stream.blocks():

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from bumpstop.arguments import FloatArray, finite, not_negative, positive, series
 from bumpstop.errors import InputError
 from bumpstop.post.contacts import integrals_of, loaded_spans
+from bumpstop.post.of_run import of_run
 from bumpstop.post.sliding import sliding_speed
 from bumpstop.post.spans import Spans, spans_within, state_spans
 
@@ -70,6 +71,7 @@ class WearWork:
         return self.work / self.time
 
 
+@of_run
 def wear_work(
     response: Response, stop: str, *, start: float = 0.0, end: float | None = None
 ) -> WearWork:
@@ -259,6 +261,7 @@ class KwuEpriWear:
         return self.coefficient * self.factor(work) * work.rate * times
 
 
+@of_run
 def wear(
     response: Response,
     stop: str,
@@ -307,6 +310,9 @@ def wear(
     volume = law.volume(work, service)
     found = {"volume": ("service", volume, {"units": "m^3", "long_name": "worn volume"})}
     if scar is not None:
+        if not hasattr(scar, "depth"):
+            hint = "FlatScar, HoleScar and PadScar are"
+            raise InputError("is no scar", key="scar", value=scar, hint=hint)
         depth = np.array([scar.depth(float(each)) for each in volume])
         found["depth"] = ("service", depth, {"units": "m", "long_name": "depth of the scar"})
     where = {"service": ("service", service, {"units": "s", "long_name": "time of service"})}

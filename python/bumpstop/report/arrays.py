@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.arguments import one_of
 from bumpstop.errors import InputError
 from bumpstop.report.curves import thin
 from bumpstop.report.figures import Figure, as_plotly
@@ -61,9 +62,11 @@ def array_figure(array: xr.DataArray, kind: str | None = None, *, log: str = "")
     if not hasattr(array, "dims") or not hasattr(array, "attrs"):
         what = "must be a labelled array, as responses and results give them"
         raise InputError(what, key="array", value=type(array).__name__)
-    if log not in LOGARITHMIC:
+    if not isinstance(log, str) or log not in LOGARITHMIC:
         hint = f"known: {', '.join(LOGARITHMIC[1:])}"
         raise InputError("unknown axes", key="log", value=log, hint=hint)
+    if kind is not None:
+        one_of("kind", kind, KINDS)
     kind = kind or str(array.attrs.get("drawn", "line" if array.ndim == 1 else "map"))
     if kind not in KINDS or array.ndim != (2 if kind == "map" else 1):
         what = f"an array of {array.ndim} dimensions cannot be drawn so"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from bumpstop.arguments import one_of, positive
 from bumpstop.errors import InputError
+from bumpstop.post.of_run import of_run
 from bumpstop.report import figures
 from bumpstop.report.figures import as_plotly
 
@@ -35,6 +36,7 @@ HISTORIES = (
 )  # fmt: skip
 
 
+@of_run
 def draw_scene(response: Response, magnification: float | None = None) -> go.Figure:
     """Draw the structure in space with its stops, moving.
 
@@ -72,6 +74,7 @@ def draw_scene(response: Response, magnification: float | None = None) -> go.Fig
     return still_at_first(scene_figure(response, magnification))
 
 
+@of_run
 def draw_history(response: Response, quantity: str, *target: str) -> go.Figure:
     """Draw a quantity over time, with contacts shaded.
 
@@ -104,6 +107,7 @@ def draw_history(response: Response, quantity: str, *target: str) -> go.Figure:
     return as_plotly(draw[quantity](response, target[0]))
 
 
+@of_run
 def draw_phase_portrait(response: Response, node: str, dof: str) -> go.Figure:
     """Draw velocity against displacement of a node, with its impacts marked.
 
@@ -115,6 +119,7 @@ def draw_phase_portrait(response: Response, node: str, dof: str) -> go.Figure:
     return as_plotly(figures.phase_portrait(response, node, dof))
 
 
+@of_run
 def draw_section(
     response: Response,
     node: str,
@@ -141,6 +146,7 @@ def draw_section(
     return as_plotly(section_figure(response, node, dof, period, phase=phase, start=start))
 
 
+@of_run
 def draw_orbit(response: Response, stop: str) -> go.Figure:
     """Draw the path of a node within a round or polygonal stop, with the forces on it.
 
@@ -161,6 +167,7 @@ def draw_orbit(response: Response, stop: str) -> go.Figure:
     return as_plotly(orbit(response, law))
 
 
+@of_run
 def draw_loop(response: Response, law: str) -> go.Figure:
     """Draw the force of a stop or another law against what it resists: depth, or deformation.
 
@@ -176,6 +183,7 @@ def draw_loop(response: Response, law: str) -> go.Figure:
     return as_plotly(force_loop(response, law))
 
 
+@of_run
 def draw_friction_loop(response: Response, stop: str) -> go.Figure:
     """Draw the friction force of a stop against how far its node has slid along the obstacle.
 
@@ -189,6 +197,7 @@ def draw_friction_loop(response: Response, stop: str) -> go.Figure:
     return as_plotly(friction_loop(response, stop))
 
 
+@of_run
 def draw_energy(response: Response) -> go.Figure:
     """Stack where the energy is over time, against what was put in."""
     return as_plotly(figures.energy_ledger(response))

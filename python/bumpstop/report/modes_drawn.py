@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.errors import InputError
 from bumpstop.report.figures import as_plotly
 from bumpstop.report.outline import outline, view_of
 from bumpstop.report.palette import LIGHT
@@ -30,6 +31,11 @@ def draw_modes(basis: ModalBasis) -> go.Figure:
 
     Each is as large as the drawing has room for: a shape has no size of its own.
 
+    Raises
+    ------
+    InputError
+        If it is no basis, or has no modes, as a full model.
+
     Examples
     --------
     >>> import bumpstop as bs
@@ -38,8 +44,12 @@ def draw_modes(basis: ModalBasis) -> go.Figure:
     >>> [step.label for step in draw_modes(basis).layout.sliders[0].steps]
     ['1', '2']
     """
+    from bumpstop.modal.basis import ModalBasis
     from bumpstop.report.space import space_layout
 
+    if not isinstance(basis, ModalBasis):
+        raise InputError("must be a ModalBasis", key="basis", value=type(basis).__name__)
+    basis.require_modes("basis")
     drawing = outline(basis)
     size = float(np.ptp(drawing.positions, axis=0).max()) or 1.0
     travel = np.linalg.norm(drawing.shapes, axis=1).max(axis=0)

@@ -21,9 +21,10 @@ __all__ = ["sector_figure"]
 
 def sector_figure(array: xr.DataArray) -> Figure:
     """Draw an array over angles, such as the work rate by sector, around its circle."""
-    if array.dims != ("angle",):
+    dims = getattr(array, "dims", type(array).__name__)
+    if dims != ("angle",):
         hint = "take what work_by_sector gives"
-        raise InputError("must be an array over angle", key="array", value=array.dims, hint=hint)
+        raise InputError("must be an array over angle", key="array", value=dims, hint=hint)
     values = np.asarray(array.values, dtype=float)
     scale = scale_for(str(array.attrs["units"]), values)
     degrees = np.degrees(array["angle"].values)
