@@ -25,6 +25,24 @@ def test_random_problem_of_several_stops(seed: int) -> None:
     check(random_several(seed))
 
 
+@pytest.mark.parametrize("seed", [17944, 80065])
+def test_dampers_take_nothing_out_of_motions_that_they_do_not_see(seed: int) -> None:
+    # Stops close in mirrored pairs, and a heavily damped mode does not move.
+    check(random_several(seed))
+
+
+@pytest.mark.parametrize("seed", [17965, 65853, 68227, 71272, 83050])
+def test_more_slow_exponents_than_sixteen(seed: int) -> None:
+    # Runs of about 1e-4 periods on a stiff stop, under constant forces.
+    check(random_several(seed))
+
+
+def test_a_stiff_stop_resists_all_of_a_force_but_what_moves_it() -> None:
+    # The force lies along the stop, which is twenty million times stiffer than the modes.
+    problem = random_several(37082)
+    assert problem.solve().energy_residual() < 1e-14
+
+
 @pytest.mark.parametrize("seed", [2, 3, 4, 6, 7, 10, 14, 17, 21, 22])
 def test_random_problem_of_coupled_modes(seed: int) -> None:
     check(random_coupled(seed))

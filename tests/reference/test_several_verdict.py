@@ -2,9 +2,11 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from .several.problem import SeveralStops
+from .several import verdict as judgement
+from .several.problem import SeveralStops, Stop
 from .several.random_problems import random_several
 from .several.scan import Event, ScanSolution
 from .several.verdict import LARGEST_GROWTH, compare, first_difference
@@ -68,3 +70,49 @@ def test_switches_that_undo_each_other_at_once_are_none() -> None:
     touched = [Event(0.5, 0, "open", "closed"), Event(0.5 + 1e-14, 0, "closed", "open")]
     assert first_difference([], touched, 1, 1.0) is None
     assert first_difference(touched[:1], touched[:1], 1, 1.0) is None
+
+
+def barely_touching(depth: float) -> SeveralStops:
+    """Return a mode that meets a stop once, by ``depth`` of the sizes its distance is made of."""
+    reach = 0.5 / np.pi
+    return SeveralStops(
+        omega2=np.array([4 * np.pi**2]),
+        damping=np.zeros(1),
+        stops=(Stop(np.ones(1), reach * (1 - 2 * depth), 1e3, 0.0),),
+        duration=1.0,
+        displacement=np.zeros(1),
+        velocity=np.ones(1),
+        force=np.zeros(1),
+    )
+
+
+@pytest.mark.parametrize("depth", [1e-12, 1e-9])
+def test_a_touch_of_a_trillionth_that_is_left_out_is_missed(
+    depth: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem = barely_touching(depth)
+    verdict = compare(problem)
+    assert verdict.events == 2
+    assert verdict.difference is None
+    monkeypatch.setattr(judgement, "core_events", lambda _: [])
+    verdict = compare(problem)
+    assert verdict.difference is not None
+    assert verdict.difference.missed
+    assert not verdict.undecidable
+
+
+def test_an_opening_at_rest_on_the_gap_is_decided_by_rounding() -> None:
+    # Both stops let go of a motion that damping has brought to rest, at 1e-12 of where it started.
+    verdict = compare(random_several(24484))
+    assert verdict.difference is None or verdict.undecidable
+
+
+def test_a_displaced_event_away_from_the_gap_is_not_excused(
+    problem: SeveralStops, judge: ScanSolution
+) -> None:
+    moved = judge.events[-1]
+    later = moved.time + 0.3 * (judge.end - moved.time)
+    judge.events[-1] = replace(moved, time=later)
+    verdict = compare(problem, judge)
+    assert verdict.difference is not None
+    assert not verdict.undecidable

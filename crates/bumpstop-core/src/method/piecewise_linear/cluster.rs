@@ -17,8 +17,8 @@ use super::rows::{ComplexBlock, entry, set_entry};
 use crate::number::Complex;
 use faer::{Mat, c64};
 
-/// The most columns of a block.
-pub(crate) const MOST: usize = 32;
+/// The most columns of a block, of which the exponents take half and what drives it the others.
+pub(crate) const MOST: usize = 64;
 
 /// Room for the columns of a block.
 pub(crate) type Columns = [Complex<f64>; MOST];
@@ -142,7 +142,8 @@ impl Cluster {
         let mut bits = steps as u64;
         for doubling in &self.doublings {
             if bits & 1 == 1 {
-                *z = applied(doubling, self.size, z);
+                let before = *z;
+                apply(doubling, self.size, &before, z);
             }
             bits >>= 1;
         }
@@ -183,7 +184,9 @@ impl Cluster {
 
     /// `B z`, what drives it included.
     pub(crate) fn rate(&self, z: &Columns) -> Columns {
-        applied(&self.generator, self.size, z)
+        let mut rate = NOTHING;
+        apply(&self.generator, self.size, z, &mut rate);
+        rate
     }
 
     /// `row B`
@@ -259,24 +262,27 @@ fn doublings(spread: &[Complex<f64>], size: usize, duration: f64) -> (Vec<Vec<Co
 
 /// `exp(spread t) z` for a short time, by Taylor's series.
 fn taylor(spread: &[Complex<f64>], size: usize, t: f64, z: &mut Columns) {
-    let mut term = *z;
+    let mut terms = [*z, NOTHING];
+    let [term, next] = &mut terms;
+    let (mut term, mut next) = (term, next);
     for order in 1..=TAYLOR_TERMS {
-        term = applied(spread, size, &term);
-        for (z, term) in z.iter_mut().zip(&mut term).take(size) {
-            *term = term.scale(t / order as f64);
-            *z += *term;
+        apply(spread, size, term, next);
+        for (z, next) in z.iter_mut().zip(next.iter_mut()).take(size) {
+            *next = next.scale(t / order as f64);
+            *z += *next;
         }
+        std::mem::swap(&mut term, &mut next);
     }
 }
 
-fn applied(matrix: &[Complex<f64>], size: usize, z: &Columns) -> Columns {
-    let mut result = NOTHING;
-    for (result, row) in result.iter_mut().zip(matrix.chunks(size)) {
+/// The product of a matrix with the first columns, in the place of as many others.
+fn apply(matrix: &[Complex<f64>], size: usize, z: &Columns, to: &mut Columns) {
+    for (to, row) in to.iter_mut().zip(matrix.chunks(size)) {
+        *to = Complex::zero();
         for (factor, z) in row.iter().zip(z) {
-            *result = factor.mul_add(*z, *result);
+            *to = factor.mul_add(*z, *to);
         }
     }
-    result
 }
 
 fn product(a: &[Complex<f64>], b: &[Complex<f64>], size: usize) -> Vec<Complex<f64>> {

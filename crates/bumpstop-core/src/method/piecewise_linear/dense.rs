@@ -17,7 +17,7 @@ use crate::law::{Law, Piece, State};
 use crate::number::{Complex, LANES};
 use crate::problem::Problem;
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
+use faer::{Mat, Scale, c64};
 
 /// Couples groups that laws push together and that matrices of the structure couple.
 pub(crate) fn couple<L: Law>(
@@ -113,18 +113,16 @@ impl Coupled {
         if self.is_conservative() {
             split.keep_energy();
         }
-        let slow = split.slow().filter(|_| self.force.norm_max() > 0.0);
-        let rest = match slow {
-            Some(part) => {
-                let state = rest_beside(&principal.state, &principal.force, &split, part);
-                let [position, velocity] = principal.motion(&state);
-                (column(&position), column(&velocity))
-            }
-            None => (column(&self.statics(&self.force)), Vec::new()),
+        let driven = split.driven_by(&self.force);
+        let rest = if driven.is_empty() {
+            (column(&self.statics(&self.force)), Vec::new())
+        } else {
+            let state = rest_beside(&principal.state, &principal.force, &split);
+            let [position, velocity] = principal.motion(&state);
+            (column(&position), column(&velocity))
         };
         (spectrum.at_rest, spectrum.rate_at_rest) = rest;
-        Layout::new(&split.parts, slow.map(|part| part.first))
-            .fill(spectrum, &principal, &split, duration);
+        Layout::new(&split.parts, &driven).fill(spectrum, &principal, &split, duration);
         Ok(())
     }
 
@@ -144,11 +142,12 @@ impl Coupled {
         let motions = fast.beside(slow);
         let [position, velocity] = principal.motion(&motions.rest);
         spectrum.at_rest = column(&(position + &stiff.back * &stiff.rest));
-        spectrum.rate_at_rest = match motions.driven {
-            Some(_) => column(&velocity),
-            None => Vec::new(),
+        spectrum.rate_at_rest = if motions.driven.is_empty() {
+            Vec::new()
+        } else {
+            column(&velocity)
         };
-        Layout::new(&motions.split.parts, motions.driven).fill(
+        Layout::new(&motions.split.parts, &motions.driven).fill(
             spectrum,
             principal,
             &motions.split,
@@ -198,13 +197,14 @@ fn column(matrix: &Mat<f64>) -> Vec<f64> {
 /// Where the columns of each part go: exponents first, clusters behind.
 struct Layout<'a> {
     parts: Vec<(&'a Part, usize)>,
-    driven: Option<usize>,
+    /// The first columns of parts that constant forces drive.
+    driven: &'a [usize],
     columns: usize,
 }
 
 impl<'a> Layout<'a> {
-    fn new(parts: &'a [Part], driven: Option<usize>) -> Self {
-        let is_driven = |part: &Part| driven == Some(part.first);
+    fn new(parts: &'a [Part], driven: &'a [usize]) -> Self {
+        let is_driven = |part: &Part| driven.contains(&part.first);
         let is_cluster = |part: &Part| part.generator.nrows() > 1 || is_driven(part);
         let mut ordered: Vec<&Part> = parts.iter().collect();
         ordered.sort_by_key(|part| is_cluster(part));
@@ -229,7 +229,7 @@ impl<'a> Layout<'a> {
         let (position, velocity) = principal.left(&split.left);
         let mut clusters = Vec::new();
         for &(part, at) in &self.parts {
-            let factor = if part.is_real { 1.0 } else { 2.0 };
+            let factor = part.sides();
             let count = part.generator.nrows();
             for c in 0..count {
                 let (column, from) = (at + c, part.first + c);
@@ -241,11 +241,11 @@ impl<'a> Layout<'a> {
                     set_entry(vectors.row_mut(2 * groups + g), column, left(&velocity));
                 }
             }
-            if self.driven == Some(part.first) {
+            if self.driven.contains(&part.first) {
                 let rows = split.left.subrows(part.first, count);
                 let n = principal.force.nrows();
                 let force = Mat::from_fn(n, 1, |i, _| c64::new(principal.force[(i, 0)], 0.0));
-                let drive = rows * force;
+                let drive = rows * force * Scale(c64::new(factor, 0.0));
                 let drive = Drive::constant(&drive, &part.generator, duration);
                 let cluster = Cluster::driven(at, &part.generator, drive, duration);
                 clusters.push(cluster);

@@ -7,9 +7,15 @@
 //! Re sum_jk [ K_jk r_j r_k + L_jk r_j conj(r_k) ],
 //! K_jk = s_j s_k / (2 (lambda_j + lambda_k)),  L_jk = s_j conj(s_k) / (2 (lambda_j + conj lambda_k)).
 //! ```
+//!
+//! Where a sum of two exponents is small beside them, rounding may have made it, and the factors
+//! with it: of an oscillation that no damper sees. The quotient may be anything then, and large
+//! forms would differ by their rounding. Such products are integrated as they are,
+//! `s_j s_k r_j(0) r_k(0) (exp(sigma t) - 1)/sigma` with the sum `sigma`.
 
 use super::cluster::Cluster;
 use super::phase::{Phase, Phases, Workspace};
+use super::product::grown;
 use super::quadrature::integral;
 use super::rows::{ComplexBlock, Rows, entry};
 use super::single_mode::Rates;
@@ -96,7 +102,7 @@ impl Form {
         let first = self.first_block;
         match &self.squares {
             Squares::Closed(form) => {
-                form.value::<I>(&work.rate[first..]) - form.value::<I>(&work.rate_at_start[first..])
+                form.until::<I>(&work.rate_at_start[first..], &work.rate[first..], t)
             }
             Squares::Quadrature(dampers) => {
                 let pace = 2.0 * phases.spectra[phase.spectrum].pace();
@@ -128,11 +134,39 @@ fn real_product(row: &[ComplexBlock], rates: &[ComplexBlock]) -> f64 {
     total
 }
 
-/// A quadratic form of the coupled rates.
+/// Part of the exponents' size below which their sum is integrated as it is.
+const NEAR: f64 = 1e-4;
+
+/// A quadratic form of the coupled rates, and what is no difference of one.
 #[derive(Debug, Clone)]
 struct Primitive {
     with: Rows,
     with_conjugate: Rows,
+    lasting: Vec<Lasting>,
+}
+
+/// A product of two rates that hardly turns.
+#[derive(Debug, Clone, Copy)]
+struct Lasting {
+    first: usize,
+    second: usize,
+    /// Whether the second is taken conjugate.
+    is_conjugate: bool,
+    factor: Complex<f64>,
+    exponent: Complex<f64>,
+}
+
+impl Lasting {
+    /// Its integral from the start of a phase, with these rates, to `t` after it.
+    fn until(&self, rates_at_start: &[ComplexBlock], t: f64) -> f64 {
+        let [first, second] = [self.first, self.second].map(|j| entry(rates_at_start, j));
+        let second = if self.is_conjugate {
+            second.conj()
+        } else {
+            second
+        };
+        (self.factor * first * second).real_product(grown(self.exponent, t))
+    }
 }
 
 impl Primitive {
@@ -147,6 +181,7 @@ impl Primitive {
         let mut form = Self {
             with: Rows::zeros(width * LANES, width),
             with_conjugate: Rows::zeros(width * LANES, width),
+            lasting: Vec::new(),
         };
         for j in 0..width * LANES {
             let own = entry(lambda, j);
@@ -163,14 +198,67 @@ impl Primitive {
                     with += mine * other;
                     conjugate += mine * other.conj();
                 }
-                let own = Complex::new(Lanes::<I>::of(own.re), Lanes::<I>::of(own.im));
-                let other = lambda[b].lanes();
-                form.with.row_mut(j)[b].put(with * recip_or_zero(own + other));
-                let between = conjugate * recip_or_zero(own + other.conj());
-                form.with_conjugate.row_mut(j)[b].put(between);
+                form.add::<I>([j, b], lambda, [with, conjugate]);
             }
         }
         form
+    }
+
+    /// Adds the products of an exponent with those of a block and with their conjugates.
+    #[inline(always)]
+    fn add<I: Instructions>(
+        &mut self,
+        [j, b]: [usize; 2],
+        lambda: &[ComplexBlock],
+        [with, conjugate]: [Complex<Lanes<I>>; 2],
+    ) {
+        let own = entry(lambda, j);
+        let least = NEAR * NEAR * own.norm2();
+        let own = Complex::new(Lanes::<I>::of(own.re), Lanes::<I>::of(own.im));
+        let other = lambda[b].lanes();
+        let (sum, difference) = (own + other, own + other.conj());
+        self.with.row_mut(j)[b].put(with * recip_or_zero(sum, least));
+        self.with_conjugate.row_mut(j)[b].put(conjugate * recip_or_zero(difference, least));
+        self.keep_lasting::<I>([j, b], false, [with, sum], least);
+        self.keep_lasting::<I>([j, b], true, [conjugate, difference], least);
+    }
+
+    /// Keeps the products of a block whose exponents are small. Those of no size at all belong to
+    /// undamped pairs, which do not dissipate.
+    #[inline(always)]
+    fn keep_lasting<I: Instructions>(
+        &mut self,
+        [first, block]: [usize; 2],
+        is_conjugate: bool,
+        [factors, exponents]: [Complex<Lanes<I>>; 2],
+        least: f64,
+    ) {
+        for (lane, size) in exponents.norm2().numbers().into_iter().enumerate() {
+            if size == 0.0 || size >= least {
+                continue;
+            }
+            let at =
+                |z: Complex<Lanes<I>>| Complex::new(z.re.numbers()[lane], z.im.numbers()[lane]);
+            self.lasting.push(Lasting {
+                first,
+                second: block * LANES + lane,
+                is_conjugate,
+                factor: at(factors),
+                exponent: at(exponents),
+            });
+        }
+    }
+
+    /// Its integral from the start of a phase to `t` after it, with the rates at both.
+    #[inline(always)]
+    fn until<I: Instructions>(
+        &self,
+        at_start: &[ComplexBlock],
+        at_end: &[ComplexBlock],
+        t: f64,
+    ) -> f64 {
+        let lasting = self.lasting.iter().map(|pair| pair.until(at_start, t));
+        self.value::<I>(at_end) - self.value::<I>(at_start) + lasting.sum::<f64>()
     }
 
     #[inline(always)]
@@ -192,13 +280,13 @@ impl Primitive {
     }
 }
 
-/// An undamped pair does not dissipate: its form is zero, not zero by zero.
+/// The reciprocal, zero where the square of the modulus is below the least one.
 #[inline(always)]
-fn recip_or_zero<I: Instructions>(z: Complex<Lanes<I>>) -> Complex<Lanes<I>> {
+fn recip_or_zero<I: Instructions>(z: Complex<Lanes<I>>, least: f64) -> Complex<Lanes<I>> {
     let norm = z.norm2();
-    let zero = Lanes::<I>::of(0.0);
+    let (zero, inverse) = (Lanes::<I>::of(0.0), Lanes::<I>::of(1.0) / norm);
     z.conj()
-        .scale(zero.select_less(norm, Lanes::<I>::of(1.0) / norm, zero))
+        .scale(norm.select_less(Lanes::of(least), zero, inverse))
 }
 
 /// The forms of one spectrum.
@@ -330,4 +418,71 @@ fn rates_of(single: &Single, rates: &[ComplexBlock]) -> Rates {
         *own = entry(rates, single.at + i);
     }
     own
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rows::set_entry;
+    use super::*;
+    use crate::number::Plain;
+
+    /// What a damper of strength one takes out of two exponentials with these exponents, factors
+    /// and rates.
+    fn taken([lambda, row, rate]: [[Complex<f64>; 2]; 3], t: f64) -> f64 {
+        let blocks = [lambda, row, rate].map(|entries| {
+            let mut block = [ComplexBlock::ZERO];
+            entries
+                .into_iter()
+                .enumerate()
+                .for_each(|(j, z)| set_entry(&mut block, j, z));
+            block
+        });
+        let [lambda, row, at_start] = blocks;
+        let mut at_end = [ComplexBlock::ZERO];
+        for j in 0..2 {
+            let turn = entry(&lambda, j).scale(t).exp();
+            set_entry(&mut at_end, j, entry(&at_start, j) * turn);
+        }
+        let form = Primitive::new::<Plain>(&lambda, &[&row], &[1.0]);
+        form.until::<Plain>(&at_start, &at_end, t)
+    }
+
+    /// The factor and the real part of the exponent are what rounding leaves of an undamped motion
+    /// that the damper does not see.
+    #[test]
+    fn rounding_takes_nothing_out() {
+        let none = Complex::zero();
+        for growth in [-1e-43, 1e-43, -1e-25, 1e-17] {
+            let lambda = [Complex::new(growth, 1522.0), none];
+            let row = [Complex::new(1e-15, -3e-16), none];
+            let rate = [Complex::new(0.4, 0.7), none];
+            let found = taken([lambda, row, rate], 2e-3);
+            assert!(found.abs() < 1e-30, "{growth:e}: {found:e}");
+        }
+    }
+
+    /// `integral of (cos w x + exp(-d x) cos w x)^2` and the like, by quadrature.
+    #[test]
+    fn lightly_and_heavily_damped_pairs_give_their_energy() {
+        let t = 0.3;
+        for damping in [1e-12, 1e-7, 1e-5, 1e-3, 0.3, 40.0] {
+            let lambda = [
+                Complex::new(-damping, 25.0),
+                Complex::new(-2.0 * damping, 25.0),
+            ];
+            let row = [Complex::new(0.8, 0.1), Complex::new(-0.3, 0.6)];
+            let rate = [Complex::new(0.4, 0.7), Complex::new(1.1, -0.2)];
+            let speed = |x: f64| -> f64 {
+                let terms =
+                    (0..2).map(|j| (row[j] * rate[j]).real_product(lambda[j].scale(x).exp()));
+                terms.sum()
+            };
+            let expected = integral(t, 200.0, |x| speed(x).powi(2));
+            let found = taken([lambda, row, rate], t);
+            assert!(
+                (found - expected).abs() < f64::EPSILON / NEAR,
+                "{damping:e}: {found} {expected}"
+            );
+        }
+    }
 }

@@ -165,9 +165,11 @@ pub(crate) fn group_forces(modal: &[f64], members: &[Member], groups: usize, to:
 }
 
 /// Static position of the groups on the spring: `w_i^2 y_i = p_i + phi_i F`,
-/// `F = constant - k sum phi_i y_i`. The softest group's own row gives F, so that a rigid-body
-/// mode (stiffness zero) needs no special case. Further ones (of other damping) stay where they
-/// are if the forces on them balance; `false` if not.
+/// `F = constant - k sum phi_i y_i`. Further groups without stiffness than the softest (of other
+/// damping) stay where they are if the forces on them balance; `false` if not.
+///
+/// Where the spring is stiff it resists nearly all of a force along its row. What is left is a
+/// small difference, made with one rounding, and the spring's force on that is found once more.
 #[inline(always)]
 pub(crate) fn static_groups(
     coupling: &Coupling,
@@ -175,15 +177,11 @@ pub(crate) fn static_groups(
     constant: f64,
     to: &mut Vec<f64>,
 ) -> bool {
-    let Coupling {
-        omega2,
-        phi,
-        stiffness,
-        ..
-    } = coupling;
+    let (omega2, phi) = (&coupling.omega2, &coupling.phi);
     to.clear();
-    if constant == 0.0 && forces.iter().all(|force| *force == 0.0) {
-        to.resize(omega2.len(), 0.0);
+    to.extend_from_slice(forces);
+    let is_pushed = forces.iter().any(|force| *force != 0.0);
+    if constant == 0.0 && !is_pushed {
         return true;
     }
     let mut soft = 0;
@@ -192,6 +190,38 @@ pub(crate) fn static_groups(
             soft = i;
         }
     }
+    let (mut at_softest, mut resisting) = resisted(coupling, soft, to, constant);
+    if is_pushed {
+        for (force, phi) in to.iter_mut().zip(phi) {
+            *force = phi.mul_add(resisting, *force);
+        }
+        (at_softest, resisting) = resisted(coupling, soft, to, constant - resisting);
+    }
+    for i in 0..omega2.len() {
+        let pushed = to[i] + phi[i] * resisting;
+        if i == soft {
+            to[i] = at_softest;
+        } else if omega2[i] != 0.0 {
+            to[i] = pushed / omega2[i];
+        } else if pushed.abs() <= BALANCED * forces[i].abs() {
+            to[i] = 0.0;
+        } else {
+            return false;
+        }
+    }
+    true
+}
+
+/// Where the softest group rests under forces, and the force of the spring. The softest one's own
+/// row gives this, so that a rigid-body mode (stiffness zero) needs no special case.
+#[inline(always)]
+fn resisted(coupling: &Coupling, soft: usize, forces: &[f64], constant: f64) -> (f64, f64) {
+    let Coupling {
+        omega2,
+        phi,
+        stiffness,
+        ..
+    } = coupling;
     let (mut flexibility, mut pushed) = (0.0, 0.0);
     for i in 0..omega2.len() {
         if i != soft && omega2[i] != 0.0 {
@@ -205,20 +235,7 @@ pub(crate) fn static_groups(
     let factor = phi[soft] + compliance * omega2[soft] / phi[soft];
     let right = constant / stiffness - pushed + compliance * forces[soft] / phi[soft];
     let y = right / factor;
-    let force = (omega2[soft] * y - forces[soft]) / phi[soft];
-    for i in 0..omega2.len() {
-        let pushed = forces[i] + phi[i] * force;
-        if i == soft {
-            to.push(y);
-        } else if omega2[i] != 0.0 {
-            to.push(pushed / omega2[i]);
-        } else if pushed.abs() <= BALANCED * forces[i].abs() {
-            to.push(0.0);
-        } else {
-            return false;
-        }
-    }
-    true
+    (y, (omega2[soft] * y - forces[soft]) / phi[soft])
 }
 
 /// Forces on a rigid-body mode are in balance when what is left of them is rounding.

@@ -10,7 +10,7 @@ use super::cluster::MOST;
 use crate::eigen::{GeneralEigen, general_eigen};
 use crate::error::Result;
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
+use faer::{Mat, Scale, c64};
 
 /// Unit vectors whose product is larger than this are nearly parallel.
 const PARALLEL: f64 = 1.0 - 1e-5;
@@ -44,6 +44,13 @@ pub(crate) struct Part {
     pub is_slow: bool,
 }
 
+impl Part {
+    /// How many times the real part of it counts: a complex one stands for its conjugate, too.
+    pub(crate) fn sides(&self) -> f64 {
+        if self.is_real { 1.0 } else { 2.0 }
+    }
+}
+
 /// `A X = X B` and `Y A = B Y`, `Y X = 1`, for one of each conjugate pair of parts.
 #[derive(Debug, Clone)]
 pub(crate) struct Split {
@@ -65,9 +72,15 @@ struct Sets {
 const NOTHING: f64 = 1e-11;
 
 impl Split {
-    /// The motions that are slow.
-    pub(crate) fn slow(&self) -> Option<&Part> {
-        self.parts.iter().find(|part| part.is_slow)
+    /// The motions that are slow: one part, or several where one cannot hold them all.
+    pub(crate) fn slow(&self) -> impl Iterator<Item = &Part> {
+        self.parts.iter().filter(|part| part.is_slow)
+    }
+
+    /// The first columns of the slow parts, where there are forces to drive them.
+    pub(crate) fn driven_by(&self, forces: &Mat<f64>) -> Vec<usize> {
+        let slow = self.slow().filter(|_| forces.norm_max() > 0.0);
+        slow.map(|part| part.first).collect()
     }
 
     /// Takes growth and decay away that are rounding: where energy is conserved, the exponents of
@@ -84,23 +97,20 @@ impl Split {
 }
 
 /// The constant part of the motion `x' = A x + p` beside slow exponents, which the forces drive:
-/// with these moved away from zero, `A + kappa X Y`, the matrix has an inverse.
-pub(crate) fn rest_beside(
-    matrix: &Mat<f64>,
-    force: &Mat<f64>,
-    split: &Split,
-    slow: &Part,
-) -> Mat<f64> {
-    let (n, count) = (matrix.nrows(), slow.generator.nrows());
-    let right = split.right.subcols(slow.first, count);
-    let left = split.left.subrows(slow.first, count);
-    let force = Mat::from_fn(n, 1, |i, _| c64::new(force[(i, 0)], 0.0));
-    let other = &force - right * (left * &force);
-    let away = matrix.norm_max();
-    let slow_part = right * left;
-    let moved = Mat::from_fn(n, n, |r, c| matrix[(r, c)] - away * slow_part[(r, c)].re);
-    let right_side = Mat::from_fn(n, 1, |i, _| -other[(i, 0)].re);
-    moved.full_piv_lu().solve(&right_side)
+/// with these moved away from zero, `A - kappa X Y`, the matrix has an inverse.
+pub(crate) fn rest_beside(matrix: &Mat<f64>, force: &Mat<f64>, split: &Split) -> Mat<f64> {
+    let n = matrix.nrows();
+    let mut projection = Mat::<f64>::zeros(n, n);
+    for part in split.slow() {
+        let count = part.generator.nrows();
+        let right = split.right.subcols(part.first, count);
+        let left = split.left.subrows(part.first, count);
+        let own = right * left;
+        projection += Mat::from_fn(n, n, |r, c| part.sides() * own[(r, c)].re);
+    }
+    let other = force - &projection * force;
+    let moved = matrix - Scale(matrix.norm_max()) * projection;
+    moved.full_piv_lu().solve(-other)
 }
 
 /// Splits a real matrix; exponents below `slow` belong together.

@@ -71,8 +71,8 @@ pub(super) struct Motions {
     pub split: Split,
     /// The constant part.
     pub rest: Mat<f64>,
-    /// The first column of the slow part, if forces drive it.
-    pub driven: Option<usize>,
+    /// The first columns of slow parts, if forces drive them.
+    pub driven: Vec<usize>,
 }
 
 impl Subspace {
@@ -88,14 +88,15 @@ impl Subspace {
             own.keep_energy();
         }
         let force = &self.left * force;
-        let driven = own.slow().filter(|_| force.norm_max() > 0.0);
-        let rest = match driven {
-            Some(part) => rest_beside(&self.matrix, &force, &own, part),
-            None => self.matrix.full_piv_lu().solve(-force),
+        let driven = own.driven_by(&force);
+        let rest = if driven.is_empty() {
+            self.matrix.full_piv_lu().solve(-force)
+        } else {
+            rest_beside(&self.matrix, &force, &own)
         };
         Ok(Motions {
             rest: &self.right * rest,
-            driven: driven.map(|part| part.first),
+            driven,
             split: Split {
                 right: complex(&self.right) * own.right,
                 left: own.left * complex(&self.left),
@@ -125,7 +126,9 @@ impl Motions {
         });
         Self {
             rest: &self.rest + &other.rest,
-            driven: self.driven.or(other.driven.map(|driven| first + driven)),
+            driven: (self.driven.into_iter())
+                .chain(other.driven.iter().map(|driven| first + driven))
+                .collect(),
             split: Split {
                 right,
                 left,
