@@ -85,7 +85,7 @@ if TYPE_CHECKING:
     from bumpstop.post.response_spectrum import response_spectrum
     from bumpstop.post.sampled import sampled_impacts
     from bumpstop.post.scars import FlatScar, HoleScar, PadScar
-    from bumpstop.post.sectors import work_by_sector
+    from bumpstop.post.sectors import wear_by_sector, work_by_sector
     from bumpstop.post.signals import (
         amplitude_spectrum,
         envelope,
@@ -307,6 +307,7 @@ __all__ = [
     "study",
     "tornado_chart",
     "wear",
+    "wear_by_sector",
     "wear_work",
     "work_by_sector",
     "worst_case",
@@ -474,6 +475,7 @@ _HOME = {
     "study": "study.study",
     "tornado_chart": "report.studies.bars",
     "wear": "post.wear",
+    "wear_by_sector": "post.sectors",
     "wear_work": "post.wear",
     "work_by_sector": "post.sectors",
     "worst_case": "study.worst",

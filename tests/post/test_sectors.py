@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import bumpstop as bs
+from bumpstop.post.wear import WearLaw
 
 SIDES = {"east": (-1, 0, 0), "north": (0, -1, 0), "west": (1, 0, 0), "south": (0, 1, 0)}
 
@@ -101,3 +102,43 @@ def test_a_hole_that_another_node_carries() -> None:
     found = bs.work_by_sector(response, "wall", sectors=40, axes=("dx", "dy"))
     np.testing.assert_allclose(found, sums / len(times), rtol=1e-3, atol=1e-4 * sums.max())
     assert np.count_nonzero(found) > 2
+
+
+def test_archard_wears_each_sector_by_its_work(run: bs.Response) -> None:
+    rates = bs.work_by_sector(run, "east", sectors=12, axes=("dx", "dy"), start=10.0)
+    law, pad = bs.ArchardWear(3e-14), bs.PadScar(area=2e-4)
+    found = bs.wear_by_sector(
+        run, "east", law, 1e7, scar=pad, sectors=12, axes=("dx", "dy"), start=10.0
+    )
+    np.testing.assert_array_equal(found["work_rate"], rates)
+    np.testing.assert_allclose(found["volume"], 3e-14 * rates * 1e7, rtol=1e-6)
+    np.testing.assert_allclose(found["depth"], found["volume"] / 2e-4, rtol=1e-14)
+    assert [found[name].attrs["units"] for name in found] == ["W", "m^3", "m"]
+    assert bs.draw_sectors(found["depth"]).data[0].type == "barpolar"
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        bs.KwuEpriWear(1e-15, impact=1.0, sliding=2.0),
+        bs.EdfWear(coefficient=2e-14, exponent=1.2, threshold=1e-19),
+    ],
+    ids=["KWU-EPRI", "EDF"],
+)
+def test_sectors_share_what_the_stops_wear(run: bs.Response, law: WearLaw) -> None:
+    found = bs.wear_by_sector(run, list(SIDES), law, 1e6, sectors=12, axes=("dx", "dy"), start=10.0)
+    whole = sum(float(bs.wear(run, name, law, [1e6], start=10.0)["volume"][0]) for name in SIDES)
+    assert float(found["volume"].sum()) == pytest.approx(whole, rel=1e-12)
+    # Walls are alike, so that work and wear are distributed alike.
+    shares = found["work_rate"] / found["work_rate"].sum()
+    np.testing.assert_allclose(found["volume"] / whole, shares, rtol=1e-4)
+
+
+def test_wear_by_sector_refuses(run: bs.Response) -> None:
+    archard = bs.ArchardWear(1e-15)
+    with pytest.raises(bs.InputError, match=r"^law: "):
+        bs.wear_by_sector(run, "east", "archard", 1.0)  # type: ignore[arg-type]
+    with pytest.raises(bs.InputError, match=r"^service: "):
+        bs.wear_by_sector(run, "east", archard, -1.0)
+    with pytest.raises(bs.InputError, match=r"^scar: "):
+        bs.wear_by_sector(run, "east", archard, 1.0, scar=0.1)  # type: ignore[arg-type]

@@ -28,6 +28,7 @@ __all__ = [
     "KwuEpriWear",
     "WearLaw",
     "WearWork",
+    "check_wear",
     "sliding_spans",
     "time_window",
     "wear",
@@ -302,21 +303,26 @@ def wear(
     """
     import xarray as xr
 
-    if not callable(getattr(law, "volume", None)):
-        hint = "such as ArchardWear(1e-15)"
-        raise InputError("must be a wear law", key="law", value=law, hint=hint)
+    check_wear(law, scar)
     service = np.array([not_negative("times", time) for time in series("times", times)])
     work = wear_work(response, stop, start=start, end=end)
     volume = law.volume(work, service)
     found = {"volume": ("service", volume, {"units": "m^3", "long_name": "worn volume"})}
     if scar is not None:
-        if not hasattr(scar, "depth"):
-            hint = "FlatScar, HoleScar and PadScar are"
-            raise InputError("is no scar", key="scar", value=scar, hint=hint)
         depth = np.array([scar.depth(float(each)) for each in volume])
         found["depth"] = ("service", depth, {"units": "m", "long_name": "depth of the scar"})
     where = {"service": ("service", service, {"units": "s", "long_name": "time of service"})}
     return xr.Dataset(found, coords=where, attrs={"stop": stop, "work_rate": work.rate})
+
+
+def check_wear(law: object, scar: object) -> None:
+    """Raise where something is no wear law, or no scar."""
+    if not callable(getattr(law, "volume", None)):
+        hint = "such as ArchardWear(1e-15)"
+        raise InputError("must be a wear law", key="law", value=law, hint=hint)
+    if scar is not None and not callable(getattr(scar, "depth", None)):
+        hint = "FlatScar, HoleScar and PadScar are"
+        raise InputError("is no scar", key="scar", value=scar, hint=hint)
 
 
 def sliding_spans(response: Response, stop: str) -> Spans:
