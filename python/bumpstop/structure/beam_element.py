@@ -94,6 +94,15 @@ class BeamElement:
         in_global: FloatArray = self.turn.T @ found @ self.turn
         return in_global
 
+    def motion(self, place: float) -> FloatArray:
+        """Return displacements and rotations at a place by those of the nodes, (6, 12).
+
+        All are along and about the global axes.
+        """
+        to_local = np.kron(np.eye(2), self.turn)
+        in_global: FloatArray = self.turn.T @ self.interpolation(self._part(place)) @ to_local
+        return in_global
+
     def inertia(self, place: float) -> FloatArray:
         """Return mass and rotary inertia a metre in global axes, (6, 6); none where lumped."""
         if self.is_lumped:

@@ -90,10 +90,17 @@ class Cut:
             return np.zeros((len(self.kernel(self.at)), fields.shape[1]))
         return self._of_field(self.element.gyration, fields)
 
+    def _ends(self, fields: FloatArray) -> FloatArray:
+        """Return displacements and rotations of the element's nodes, (12, m)."""
+        nodes = [f"{self.beam}@{place!r}" for place in (self.element.start, self.element.end)]
+        forms = [self.model.displacement_form(node, dof) for node in nodes for dof in DOFS]
+        return np.stack([form.of(fields) for form in forms])
+
     def _of_field(self, matrix: Callable[[float], FloatArray], fields: FloatArray) -> FloatArray:
+        ends = self._ends(fields)
+
         def density(place: float) -> FloatArray:
-            node = f"{self.beam}@{place!r}"
-            rows = [self.model.displacement_form(node, dof).of(fields) for dof in DOFS]
-            return matrix(place) @ np.stack(rows)
+            found: FloatArray = matrix(place) @ self.element.motion(place) @ ends
+            return found
 
         return self.of_density(density, self.element.start, self.element.end)
