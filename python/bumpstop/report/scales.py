@@ -88,6 +88,8 @@ def significant(value: float, digits: int = 4, *, zeros: bool = True) -> str:
     --------
     >>> significant(2.5), significant(2.5, zeros=False), significant(-3.1e-14, 2)
     ('2.500', '2.5', '−3.1 × 10⁻¹⁴')
+    >>> significant(2.5e7, 6, zeros=False), significant(1e7, 6, zeros=False)
+    ('2.5 × 10⁷', '10⁷')
     """
     if not math.isfinite(value):
         return "–" if math.isnan(value) else ("∞" if value > 0 else "−∞")
@@ -95,15 +97,15 @@ def significant(value: float, digits: int = 4, *, zeros: bool = True) -> str:
         return "0"
     exponent = int(f"{value:.{digits - 1}e}".split("e")[1])
     if not -4 <= exponent < max(digits, 6):
-        return power_of_ten(value, digits)
+        return power_of_ten(value, digits, zeros=zeros)
     text = f"{value:.{max(digits - 1 - exponent, 0)}f}"
     if not zeros and "." in text:
         text = text.rstrip("0").rstrip(".")
     return text.replace("-", "−")
 
 
-def power_of_ten(value: float, digits: int = 2) -> str:
-    """Return a number as mantissa and power of ten.
+def power_of_ten(value: float, digits: int = 2, *, zeros: bool = True) -> str:
+    """Return a number as mantissa and power of ten; without zeros at its end if so wished.
 
     Examples
     --------
@@ -113,7 +115,12 @@ def power_of_ten(value: float, digits: int = 2) -> str:
     if value == 0.0 or not math.isfinite(value):
         return significant(value)
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    return f"{mantissa.replace('-', '−')} × 10{str(int(exponent)).translate(_SUPERSCRIPTS)}"
+    power = f"10{str(int(exponent)).translate(_SUPERSCRIPTS)}"
+    if not zeros and "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
+        if mantissa == "1":
+            return power
+    return f"{mantissa.replace('-', '−')} × {power}"
 
 
 def percent(fraction: float, decimals: int = 2, *, sign: bool = False) -> str:

@@ -27,6 +27,8 @@ __all__ = [
 ]
 
 _LEAST_IN_LOG = 3
+_DECADES = 100.0
+"""From this ratio of the largest value to the smallest on, ticks are at powers of ten alone."""
 
 
 def parameters_of(results: xr.Dataset) -> list[str]:
@@ -75,7 +77,12 @@ def parameter_axis(name: str, levels: NDArray[Any]) -> dict[str, Any]:
     if levels.dtype.kind not in "iuf":
         return layout | {"type": "category"}
     # Not plotly's letters: their unit is not known here.
-    return layout | {"exponentformat": "power"} | ({"type": "log"} if _is_log(levels) else {})
+    layout |= {"exponentformat": "power"}
+    if not _is_log(levels):
+        return layout
+    # Where there are decades enough to tell, twos and fives between them would crowd narrow pages.
+    wide = float(levels.max() / levels.min()) >= _DECADES
+    return layout | {"type": "log"} | ({"dtick": 1} if wide else {})
 
 
 def layout_over(
