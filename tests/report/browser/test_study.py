@@ -96,3 +96,12 @@ def test_failed_runs_are_listed(
     failures.last.locator("button").click()
     command = page.locator("#run [data-part=command]").text_content() or ""
     assert command.endswith("--open 1")
+
+
+def test_it_is_read_on_narrow_screens_without_sideways_scrolling(
+    opened: Opened, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page: Page = opened(swept(tmp_path, STUDY, capsys), width=360)
+    wide = """() => [document.documentElement, ...document.querySelectorAll('.table-frame')]
+        .filter((each) => each.scrollWidth > each.clientWidth + 1).length"""
+    assert page.evaluate(wide) == 0
