@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import bumpstop as bs
-from bumpstop.problem import Law
+from bumpstop.problem import Law, Load
 from bumpstop.structure.dofs import DOFS
 
 STEEL = bs.Material(young_modulus=210e9, poisson_ratio=0.3, density=7800.0)
@@ -110,7 +110,29 @@ LAWS: dict[str, Callable[[], Law]] = {
 }
 
 
-def response(law: Law, method: str = "auto", dt: float | None = None) -> bs.Response:
+WAVE = bs.Harmonic(11.0, sine=1.0)
+LOADS: dict[str, Callable[[], Load]] = {
+    "force": lambda: bs.NodalForce("load", node="AB@0.5", force=(0, 9, 4), time=WAVE),
+    "line": lambda: bs.LineForce("load", beam="AB", force=(0, -2.0, 1.0), start=0.1, end=1.0),
+    "gravity": lambda: bs.Gravity("load", acceleration=(0, -9.81, 3.0)),
+    "moving": lambda: bs.MovingForce("load", beam="AB", force=(0, 9, 4), speed=13.0),
+    "base": lambda: bs.BaseMotion(acceleration=(0, 5.0, 2.0), time=WAVE),
+    "support": lambda: bs.SupportMotion("load", nodes="A", displacement=(0, 1e-3, 2e-4), time=WAVE),
+    "turbulence": lambda: bs.Turbulence(
+        "load",
+        beam="AB",
+        direction=(0, 1, 0),
+        density=bs.SpectralDensity(frequencies=[1.0, 100.0], values=[1.0, 1.0]),
+        correlation_length=0.3,
+        seed=7,
+        period=0.5,
+    ),
+}
+
+
+def response(
+    law: Law, method: str = "auto", dt: float | None = None, loads: Sequence[Load] = ()
+) -> bs.Response:
     """A cantilever that is shaken in two directions, with a law at its tip."""
     beam = bs.Beam("AB", nodes=("A", "B"), elements=4, material=STEEL, section=BAR)
     plane = bs.Support(nodes="all", fixed=("dx", "drx"))
@@ -120,9 +142,10 @@ def response(law: Law, method: str = "auto", dt: float | None = None) -> bs.Resp
         supports=[plane, bs.Support(nodes="A", fixed=DOFS)],
     )
     basis = bs.ModalBasis.from_structure(structure, modes=4, damping=0.02)
-    shaken = bs.NodalForce("f", node=TIP, force=(0, 9, 4), time=bs.Harmonic(11.0, sine=1.0))
+    shaken = bs.NodalForce("f", node=TIP, force=(0, 9, 4), time=WAVE)
     weight = bs.LineForce("w", beam="AB", force=(0, -2.0, 1.0), start=0.1, end=1.0)
-    problem = bs.Problem(basis, laws=[law], loads=[shaken, weight], duration=0.12, sample=1e-3)
+    given = list(loads) or [shaken, weight]
+    problem = bs.Problem(basis, laws=[law], loads=given, duration=0.12, sample=1e-3)
     return bs.simulate(problem, method, dt=dt)
 
 
@@ -138,6 +161,13 @@ def lack(run: bs.Response) -> float:
 def test_every_node_is_in_equilibrium(name: str) -> None:
     run = response(LAWS[name]())
     assert np.abs(run.sample("stop_force", "law")).max() > 0.1  # else the law is not tested
+    assert lack(run) < 1e-12
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_every_node_is_in_equilibrium_under_every_load(name: str) -> None:
+    run = response(LAWS["stop"](), loads=[LOADS[name]()])
+    assert np.abs(run.sample("displacement", TIP, "dy")).max() > 1e-6
     assert lack(run) < 1e-12
 
 
