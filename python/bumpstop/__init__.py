@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from bumpstop.io.stored import read_netcdf, read_results
     from bumpstop.laws.buckling_stop import BucklingStop
     from bumpstop.laws.circle_stop import CircleStop
+    from bumpstop.laws.cracked_rotor import CrackedRotor
     from bumpstop.laws.damper import DamperLaw
     from bumpstop.laws.force_relation import ForceRelation
     from bumpstop.laws.friction import Friction
@@ -48,12 +49,14 @@ if TYPE_CHECKING:
     from bumpstop.loads.nodal_state import NodalState
     from bumpstop.loads.product import Product
     from bumpstop.loads.random_signal import RandomSignal
+    from bumpstop.loads.shaft_rotation import ShaftRotation
     from bumpstop.loads.static_state import StaticState
     from bumpstop.loads.support_motion import SupportMotion
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.loads.translation import RigidTranslation
     from bumpstop.loads.turbulence import Turbulence
+    from bumpstop.loads.unbalance import Unbalance
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.modal.certificate import SturmCount
     from bumpstop.modal.damping import RayleighDamping, StructuralDamping
@@ -167,6 +170,7 @@ __all__ = [
     "ComputationError",
     "ContactStatistics",
     "Convergence",
+    "CrackedRotor",
     "DamperLaw",
     "Distribution",
     "EdfWear",
@@ -227,6 +231,7 @@ __all__ = [
     "Sampling",
     "Section",
     "SeismicDevice",
+    "ShaftRotation",
     "SignalStatistics",
     "SpectralDensity",
     "Spring",
@@ -245,6 +250,7 @@ __all__ = [
     "TimeTable",
     "Tube",
     "Turbulence",
+    "Unbalance",
     "UserLaw",
     "Values",
     "WearWork",
@@ -335,6 +341,7 @@ _HOME = {
     "ComputationError": "errors",
     "ContactStatistics": "post.statistics",
     "Convergence": "study.convergence",
+    "CrackedRotor": "laws.cracked_rotor",
     "DamperLaw": "laws.damper",
     "Distribution": "study.parameters",
     "EdfWear": "post.wear",
@@ -395,6 +402,7 @@ _HOME = {
     "Sampling": "study.sampling",
     "Section": "structure.sections.section",
     "SeismicDevice": "laws.seismic_device",
+    "ShaftRotation": "loads.shaft_rotation",
     "SignalStatistics": "post.streams",
     "SpectralDensity": "loads.density",
     "Spring": "structure.spring",
@@ -413,6 +421,7 @@ _HOME = {
     "TimeTable": "loads.time",
     "Tube": "structure.sections.tube",
     "Turbulence": "loads.turbulence",
+    "Unbalance": "loads.unbalance",
     "UserLaw": "laws.user_law",
     "Values": "study.parameters",
     "WearWork": "post.wear",

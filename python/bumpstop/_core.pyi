@@ -84,6 +84,28 @@ class System:
         circulatory: Array | None = None,
     ) -> None:
         """Take omega2 (N,) and circulatory (N, N) in rad2/s2, the others alike in rad/s."""
+    def with_rotation(
+        self,
+        course: Course,
+        gyroscopic: tuple[Array, Array] | None = None,
+        unbalance: tuple[Array, Array] | None = None,
+    ) -> System:
+        """Return the same with one more shaft whose speed changes.
+
+        Take matrices (N, N) that multiply velocities at 1 rad/s and displacements at 1 rad/s2, and
+        forces (N,) of masses out of centre at 1 rad/s and the angles 0 and a quarter turn.
+        """
+
+class Course:
+    """How a shaft turns."""
+
+    def __init__(self, angle: float, speeds: list[tuple[float, list[float]]]) -> None:
+        """Take the angle at t = 0, and stretches of the speed.
+
+        Each is its first instant and the coefficients in powers of the time since then.
+        """
+    def at(self, times: Array) -> list[Array]:
+        """Return angle in rad, speed and acceleration at times, each (time,)."""
 
 class Forcing:
     """Modal forces over time: constant ones, and vectors (N,) times functions of time."""
@@ -249,6 +271,18 @@ class ZenerDamper:
         exponent: float,
     ) -> None: ...
 
+class CrackedRotor:
+    """A crack across a shaft that turns, with the rotations ``rows . q``."""
+
+    def __init__(
+        self,
+        rows: tuple[Array, Array],
+        stiffness: tuple[list[float], list[list[float]]],
+        derivative: tuple[list[float], list[list[float]]],
+        course: Course,
+    ) -> None:
+        """Take functions of the direction as breaks, and coefficients of cubics from each on."""
+
 class Shape:
     """The shape of an obstacle about the origin of a plane."""
 
@@ -285,6 +319,7 @@ Law = (
     | Spring
     | HertzStop
     | ZenerDamper
+    | CrackedRotor
     | ShapedStop
     | Damper
     | ForceRelation

@@ -57,9 +57,21 @@ def canonical_form(problem: Problem) -> CanonicalForm:
         check = getattr(law, "check_start", None)
         if check is not None:
             check(basis, displacement)
-    system = _core.System(basis.omega2, *_velocity_terms(basis), basis.circulatory)
+    system = _system(problem)
     loads = obstacle_motions(problem, forcing(problem))
     return CanonicalForm(system, laws, loads, displacement, velocity)
+
+
+def _system(problem: Problem) -> _core.System:
+    """Return the structure, with all that turns."""
+    basis = problem.basis
+    turns = problem.rotation is not None or any(hasattr(load, "rotation") for load in problem.loads)
+    if not turns:
+        return _core.System(basis.omega2, *_velocity_terms(basis), basis.circulatory)
+    from bumpstop.turning import turned_basis, with_rotations
+
+    still = _velocity_terms(turned_basis(problem))
+    return with_rotations(problem, _core.System(basis.omega2, *still, basis.circulatory))
 
 
 def obstacle_motions(problem: Problem, loads: _core.Forcing) -> _core.Forcing:

@@ -13,6 +13,7 @@ from bumpstop.errors import InputError
 from bumpstop.loads.initial import ModalState
 from bumpstop.loads.load import ForceComponent
 from bumpstop.loads.shifted import Shifted
+from bumpstop.methods import changing_speed
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
@@ -66,7 +67,8 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
     InputError
         If a contact rubs at that instant: where its spring is anchored cannot be given to a new
         run; if a law is there that remembers more than the motion tells, such as a `ZenerDamper`;
-        or if supports move and results are told from the ground.
+        if supports move and results are told from the ground; or if a shaft turns at a
+        speed that changes.
 
     Examples
     --------
@@ -85,6 +87,7 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
         raise InputError(what, key="at", value=at)
     for law in problem.laws:
         _refuse_rubbing(response, law, instant)
+    _refuse_changing_speed(problem)
     motion = [response.motion(order, [instant])[0] for order in (0, 1)]
     place, speed = (problem.basis.amplitudes(each) for each in motion)
     return replace(
@@ -105,6 +108,13 @@ def refuse_memory(law: Law) -> None:
     if type(law) not in {getattr(known, name) for name in _FORGETFUL}:
         what = "remembers more than the motion tells, and a new run would forget it"
         raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
+
+
+def _refuse_changing_speed(problem: Problem) -> None:
+    turning = changing_speed(problem)
+    if turning is not None:
+        what, hint = "cannot go on at a speed that changes", "run it in one"
+        raise InputError(what, key="rotation", value=turning, hint=hint)
 
 
 def _refuse_rubbing(response: Response, law: Law, instant: float) -> None:

@@ -20,6 +20,7 @@ __all__ = [
     "POINTS_PER_PERIOD",
     "RTOL",
     "TOLERANCE_METHODS",
+    "changing_speed",
     "check_method",
     "check_options",
     "checked_parameters",
@@ -87,6 +88,7 @@ def check_method(method: str, problem: Problem) -> None:
     """Raise where a method does not take what the problem is made of."""
     _refuse_full_model(method, problem)
     _refuse_coupled_modes(method, problem)
+    _refuse_changing_speed(method, problem)
     _refuse_rigid_stops(method, problem)
     _refuse_rigid_friction(method, problem)
     _refuse_stepped_laws(method, problem)
@@ -154,6 +156,27 @@ def _refuse_coupled_modes(method: str, problem: Problem) -> None:
             value=method,
             hint=f"the exact method and {', '.join(ADAPTIVE_METHODS)} do",
         )
+
+
+def _refuse_changing_speed(method: str, problem: Problem) -> None:
+    """Raise for methods whose matrices must not change where a shaft's speed does."""
+    turning = changing_speed(problem)
+    if turning is not None and method not in ADAPTIVE_METHODS:
+        raise InputError(
+            f"does not take speeds that change, as that of {turning}",
+            key="method",
+            value=method,
+            hint=f"{', '.join(ADAPTIVE_METHODS)} do",
+        )
+
+
+def changing_speed(problem: Problem) -> str | None:
+    """Return what turns at a speed that changes, in words; None where nothing does."""
+    if problem.rotation is None and not any(hasattr(load, "rotation") for load in problem.loads):
+        return None
+    from bumpstop.turning import changing_shaft
+
+    return changing_shaft(problem)
 
 
 def _refuse_rigid_stops(method: str, problem: Problem) -> None:

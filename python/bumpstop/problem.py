@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bumpstop import _core
     from bumpstop.laws.coordinate import Coordinate
     from bumpstop.loads.load import ForceComponent
+    from bumpstop.loads.shaft_rotation import ShaftRotation
 
 __all__ = ["InitialState", "Law", "Load", "Problem"]
 
@@ -98,6 +99,8 @@ class Problem:
         Strain gauges; names must differ.
     outputs
         Pairs (node, dof) whose motion is written to files beside the nodes of the stops.
+    rotation
+        How the shafts turn; where left out the gyroscopic matrix of the basis is taken as it is.
 
     Raises
     ------
@@ -126,6 +129,7 @@ class Problem:
     sample: float | None = None
     gauges: Sequence[Gauge] = ()
     outputs: Sequence[tuple[str, str]] = ()
+    rotation: ShaftRotation | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.basis, ModalBasis):
@@ -142,6 +146,7 @@ class Problem:
         if self.sample is not None:
             object.__setattr__(self, "sample", positive("sample", self.sample))
         self._check_sample()
+        self._check_rotation()
         self._check_targets()
 
     @property
@@ -220,6 +225,17 @@ class Problem:
                 hint=f"take at least {self.duration / MOST_SAMPLES:.3g} s; "
                 "the solution itself does not depend on it",
             )
+
+    def _check_rotation(self) -> None:
+        turns = self.rotation is not None or any(hasattr(load, "rotation") for load in self.loads)
+        if not turns:
+            return
+        from bumpstop.loads.shaft_rotation import ShaftRotation
+        from bumpstop.turning import check_rotation
+
+        if not isinstance(self.rotation, ShaftRotation | None):
+            raise InputError("must be a ShaftRotation", key="rotation", value=self.rotation)
+        check_rotation(self)
 
     def _check_targets(self) -> None:
         for law in self.laws:

@@ -74,6 +74,7 @@ INTERNAL_VARIABLES = {
     "largest_crushing": Quantity("m", "largest crushing since the stop has buckled"),
     "residual_crushing": Quantity("m", "crushing that is left without force"),
     "dashpot_elongation": Quantity("m", "elongation of the dashpot"),
+    "bending_direction": Quantity("rad", "direction in which the crack is bent, in the shaft"),
     "memory": Quantity("1", "memory of the law"),
 }
 """What laws remember, beside the state that they are in: functions of time.

@@ -386,8 +386,9 @@ class Response:
         round and plane stops that rub, ``stretch_around`` and ``stretch_axial``; the
         ``plastic_elongation`` of a hardening spring and the ``plastic_path``, the same summed up;
         ``largest_crushing`` and ``residual_crushing`` of a stop that buckles; the
-        ``dashpot_elongation`` of a Zener damper; the ``memory`` of a law of one's own. NaN where
-        there is none, as the anchor of a stop that is open.
+        ``dashpot_elongation`` of a Zener damper; the ``bending_direction`` of a cracked rotor;
+        the ``memory`` of a law of one's own. NaN where there is none, as the anchor of a stop
+        that is open.
 
         Raises
         ------

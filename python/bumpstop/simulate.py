@@ -19,6 +19,7 @@ from bumpstop.methods import (
     ONE_STEP_METHODS,
     RTOL,
     TOLERANCE_METHODS,
+    changing_speed,
     check_method,
     check_options,
     checked_parameters,
@@ -287,6 +288,9 @@ def _choose(method: str, problem: Problem) -> tuple[str, str]:
         reason = smoothness(law)
         if reason:
             return "dop853", f"{law.name!r} is not piecewise linear: {reason}"
+    turning = changing_speed(problem)
+    if turning is not None:
+        return "dop853", f"{turning} changes in speed"
     return "exact", "all laws are piecewise linear"
 
 

@@ -40,6 +40,12 @@ impl Moment<'_> {
                 }
             }
         }
+        for rotation in system.rotations() {
+            let turning = rotation.around(self.time);
+            for (force, parts) in forces.iter_mut().zip(turning.forces(self.time, [q, v])) {
+                *force += parts.sum();
+            }
+        }
         forces
     }
 

@@ -233,6 +233,14 @@ pub enum Error {
         /// The law.
         law: usize,
     },
+    /// A shaft whose speed changes was given to a method with matrices that do not.
+    #[error(
+        "the {method} method does not take shafts whose speed changes; the adaptive methods do"
+    )]
+    SpeedChanges {
+        /// The method.
+        method: &'static str,
+    },
     /// A law that is to be asked once a step was given to a method that asks otherwise.
     #[error(
         "the {method} method does not take law {law} (counted from 0), which is asked once a step, in order; symplectic_euler does"

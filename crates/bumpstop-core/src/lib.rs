@@ -21,5 +21,6 @@ pub mod number;
 pub mod obstacle;
 pub mod problem;
 mod rigid;
+pub mod rotation;
 pub mod sparse;
 pub mod system;

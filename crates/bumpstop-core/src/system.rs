@@ -1,6 +1,7 @@
 //! The linear structure on its modal basis.
 
 use crate::error::{Error, Result, check_finite, check_length};
+use crate::rotation::Rotation;
 
 /// `q'' + (diag(damping) + coupling) q' + (diag(omega2) + circulatory) q = forces`, unit modal mass.
 ///
@@ -11,6 +12,7 @@ pub struct ModalSystem {
     damping: Vec<f64>,
     coupling: Option<Coupling>,
     circulatory: Option<Coupling>,
+    rotations: Vec<Rotation>,
 }
 
 /// What else multiplies the modal velocities (in rad/s: damping that couples modes, gyroscopic
@@ -34,7 +36,11 @@ impl Coupling {
     }
 
     /// A square matrix of finite numbers; `None` where it couples nothing.
-    fn new(what: &'static str, rows: Vec<Vec<f64>>, modes: usize) -> Result<Option<Self>> {
+    pub(crate) fn new(
+        what: &'static str,
+        rows: Vec<Vec<f64>>,
+        modes: usize,
+    ) -> Result<Option<Self>> {
         if rows.len() != modes {
             return Err(Error::Length {
                 what,
@@ -87,6 +93,7 @@ impl ModalSystem {
             damping,
             coupling: None,
             circulatory: None,
+            rotations: Vec::new(),
         })
     }
 
@@ -107,6 +114,27 @@ impl ModalSystem {
     pub fn with_circulatory(mut self, rows: Vec<Vec<f64>>) -> Result<Self> {
         self.circulatory = Coupling::new("the circulatory matrix", rows, self.modes())?;
         Ok(self)
+    }
+
+    /// The same with one more shaft whose speed changes.
+    ///
+    /// # Errors
+    /// When it is of other modes.
+    pub fn with_rotation(mut self, rotation: Rotation) -> Result<Self> {
+        if rotation.modes() != self.modes() {
+            return Err(Error::Length {
+                what: "a shaft's modes",
+                found: rotation.modes(),
+                expected: self.modes(),
+            });
+        }
+        self.rotations.push(rotation);
+        Ok(self)
+    }
+
+    /// Shafts whose speed changes.
+    pub fn rotations(&self) -> &[Rotation] {
+        &self.rotations
     }
 
     /// What couples the modal velocities, if anything does.

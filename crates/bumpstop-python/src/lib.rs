@@ -41,6 +41,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<parts::RigidStop>()?;
     module.add_class::<parts::HertzStop>()?;
     module.add_class::<parts::ZenerDamper>()?;
+    module.add_class::<parts::CrackedRotor>()?;
+    module.add_class::<parts::Course>()?;
     module.add_class::<parts::Shape>()?;
     module.add_class::<parts::ShapedStop>()?;
     module.add_class::<full::FullProblem>()?;

@@ -5,7 +5,7 @@ use crate::formula::Word;
 use crate::user::{OutsideProgram, UserLaw};
 use bumpstop_core::error::Result;
 use bumpstop_core::forcing::{self, Beyond, Table};
-use bumpstop_core::{law, obstacle, system};
+use bumpstop_core::{law, obstacle, rotation, system};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
@@ -34,6 +34,56 @@ impl System {
             Ok(Self(system))
         };
         build().map_err(core_error)
+    }
+
+    /// The same with one more shaft whose speed changes: its course, gyroscopic matrices for speed
+    /// and acceleration, and forces of masses out of centre at the angles 0 and a quarter turn.
+    #[pyo3(signature = (course, gyroscopic=None, unbalance=None))]
+    #[allow(clippy::needless_pass_by_value)] // mirrors the Python signature
+    fn with_rotation(
+        &self,
+        course: &Course,
+        gyroscopic: Option<[PyReadonlyArray2<f64>; 2]>,
+        unbalance: Option<[PyReadonlyArray1<f64>; 2]>,
+    ) -> PyResult<Self> {
+        let build = || {
+            let mut turning = rotation::Rotation::new(course.0.clone(), self.0.modes());
+            if let Some([speed, acceleration]) = &gyroscopic {
+                turning = turning.with_gyroscopic(rows(speed), rows(acceleration))?;
+            }
+            if let Some(forces) = &unbalance {
+                turning = turning.with_unbalance(forces.each_ref().map(values))?;
+            }
+            self.0.clone().with_rotation(turning).map(Self)
+        };
+        build().map_err(core_error)
+    }
+}
+
+/// How a shaft turns.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct Course(pub rotation::Course);
+
+#[pymethods]
+impl Course {
+    /// Stretches are (start, coefficients of the speed in powers of the time since then).
+    #[new]
+    #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+    fn new(angle: f64, speeds: Vec<(f64, Vec<f64>)>) -> PyResult<Self> {
+        rotation::Course::new(angle, &speeds)
+            .map(Self)
+            .map_err(core_error)
+    }
+
+    /// Angle in rad, speed and acceleration at times, (3, time).
+    #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<f64>,
+    ) -> [Bound<'py, PyArray1<f64>>; 3] {
+        let turns: Vec<_> = times.as_array().iter().map(|t| self.0.turn(*t)).collect();
+        [0, 1, 2].map(|part| PyArray1::from_iter(py, turns.iter().map(|turn| turn[part])))
     }
 }
 
@@ -302,6 +352,33 @@ impl ZenerDamper {
     }
 }
 
+/// Breaks and cubics of a function of the direction.
+type Cubics = (Vec<f64>, Vec<[f64; 4]>);
+
+/// A crack across a shaft that turns.
+#[pyclass(frozen, module = "bumpstop._core")]
+pub struct CrackedRotor(pub law::CrackedRotor);
+
+#[pymethods]
+impl CrackedRotor {
+    #[new]
+    #[allow(clippy::needless_pass_by_value)] // what pyo3 converts to
+    fn new(
+        rows: [PyReadonlyArray1<f64>; 2],
+        stiffness: Cubics,
+        derivative: Cubics,
+        course: &Course,
+    ) -> PyResult<Self> {
+        let build = || {
+            let [stiffness, derivative] =
+                [stiffness, derivative].map(|(breaks, cubics)| law::Periodic::new(breaks, cubics));
+            let rows = rows.each_ref().map(values);
+            law::CrackedRotor::new(rows, stiffness?, derivative?, course.0.clone()).map(Self)
+        };
+        build().map_err(core_error)
+    }
+}
+
 /// The shape of an obstacle about the origin of a plane.
 #[pyclass(frozen, module = "bumpstop._core")]
 pub struct Shape(pub obstacle::Shape);
@@ -466,6 +543,7 @@ pub enum LawPart<'py> {
     RigidStop(PyRef<'py, RigidStop>),
     HertzStop(PyRef<'py, HertzStop>),
     ZenerDamper(PyRef<'py, ZenerDamper>),
+    CrackedRotor(PyRef<'py, CrackedRotor>),
     ShapedStop(PyRef<'py, ShapedStop>),
     SeismicDevice(PyRef<'py, SeismicDevice>),
     HardeningSpring(PyRef<'py, HardeningSpring>),
@@ -486,6 +564,7 @@ impl LawPart<'_> {
             Self::RigidStop(law) => law.0.clone().into(),
             Self::HertzStop(law) => law.0.clone().into(),
             Self::ZenerDamper(law) => law.0.clone().into(),
+            Self::CrackedRotor(law) => law.0.clone().into(),
             Self::ShapedStop(law) => law.0.clone().into(),
             Self::SeismicDevice(law) => law.0.clone().into(),
             Self::HardeningSpring(law) => law.0.clone().into(),

@@ -9,6 +9,7 @@ from bumpstop.lazy import lazy_names
 if TYPE_CHECKING:
     from bumpstop.laws.buckling_stop import BucklingStop
     from bumpstop.laws.circle_stop import CircleStop
+    from bumpstop.laws.cracked_rotor import CrackedRotor
     from bumpstop.laws.damper import DamperLaw
     from bumpstop.laws.force_relation import ForceRelation
     from bumpstop.laws.friction import Friction
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = [
     "BucklingStop",
     "CircleStop",
+    "CrackedRotor",
     "DamperLaw",
     "ForceRelation",
     "Friction",
@@ -46,6 +48,7 @@ __all__ = [
 _HOME = {
     "BucklingStop": "buckling_stop",
     "CircleStop": "circle_stop",
+    "CrackedRotor": "cracked_rotor",
     "DamperLaw": "damper",
     "ForceRelation": "force_relation",
     "Friction": "friction",

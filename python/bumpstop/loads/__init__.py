@@ -19,12 +19,14 @@ if TYPE_CHECKING:
     from bumpstop.loads.nodal_state import NodalState
     from bumpstop.loads.product import Product
     from bumpstop.loads.random_signal import RandomSignal
+    from bumpstop.loads.shaft_rotation import ShaftRotation
     from bumpstop.loads.static_state import StaticState
     from bumpstop.loads.support_motion import SupportMotion
     from bumpstop.loads.sweep import Sweep
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable
     from bumpstop.loads.translation import RigidTranslation
     from bumpstop.loads.turbulence import Turbulence
+    from bumpstop.loads.unbalance import Unbalance
 
 __all__ = [
     "Accelerogram",
@@ -42,12 +44,14 @@ __all__ = [
     "RandomSignal",
     "RigidRotation",
     "RigidTranslation",
+    "ShaftRotation",
     "SpectralDensity",
     "StaticState",
     "SupportMotion",
     "Sweep",
     "TimeTable",
     "Turbulence",
+    "Unbalance",
 ]
 
 __getattr__ = lazy_names(
@@ -68,11 +72,13 @@ __getattr__ = lazy_names(
         "RandomSignal": "random_signal",
         "RigidRotation": "initial",
         "RigidTranslation": "translation",
+        "ShaftRotation": "shaft_rotation",
         "SpectralDensity": "density",
         "StaticState": "static_state",
         "SupportMotion": "support_motion",
         "Sweep": "sweep",
         "TimeTable": "time",
         "Turbulence": "turbulence",
+        "Unbalance": "unbalance",
     },
 )

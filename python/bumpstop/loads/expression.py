@@ -16,7 +16,7 @@ from bumpstop.errors import InputError
 from bumpstop.loads.sampling import TOLERANCE, checked_tolerance, sampled
 from bumpstop.loads.time import TimeTable
 
-__all__ = ["CONSTANTS", "FUNCTIONS", "Expression"]
+__all__ = ["CONSTANTS", "FUNCTIONS", "Expression", "formula_in"]
 
 _Formula: TypeAlias = Callable[[FloatArray], Any]
 
@@ -110,40 +110,65 @@ class Expression:
 
     @cached_property
     def _read(self) -> _Formula:
-        if len(self.formula) > _LONGEST:
-            what = f"must be shorter than {_LONGEST} characters"
-            raise InputError(what, key="formula", value=self.formula)
-        try:
-            return _formula(ast.parse(self.formula.strip(), mode="eval").body)
-        except InputError as error:
-            raise InputError(
-                error.what, key="formula", value=error.value or self.formula, hint=error.hint
-            ) from error
-        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-            what, hint = "is no formula", "write it as in Python: '2 * sin(3 * t) ** 2'"
-            raise InputError(what, key="formula", value=self.formula, hint=hint) from error
+        return formula_in("t", self.formula)
 
 
-def _formula(node: ast.expr) -> _Formula:
+def formula_in(variable: str, formula: str, key: str = "formula") -> _Formula:
+    """Return a function of arrays that a formula in one variable means.
+
+    Parameters
+    ----------
+    variable
+        The name that stands for the argument.
+    formula
+        The formula, of what an `Expression` may have.
+    key
+        The argument that is blamed.
+
+    Raises
+    ------
+    InputError
+        If the formula is none, or has something else in it.
+
+    Examples
+    --------
+    >>> float(formula_in("x", "2 * x + 1")(np.array(3.0)))
+    7.0
+    """
+    if len(formula) > _LONGEST:
+        raise InputError(f"must be shorter than {_LONGEST} characters", key=key, value=formula)
+    try:
+        return _formula(ast.parse(formula.strip(), mode="eval").body, variable)
+    except InputError as error:
+        found = error.value or formula
+        raise InputError(error.what, key=key, value=found, hint=error.hint) from error
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        what, hint = "is no formula", f"write it as in Python: '2 * sin(3 * {variable}) ** 2'"
+        raise InputError(what, key=key, value=formula, hint=hint) from error
+
+
+def _formula(node: ast.expr, variable: str) -> _Formula:
     """Return what a branch of the parsed formula computes; nothing but what is listed above."""
     match node:
         case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
             return _constant(float(number))
-        case ast.Name(id="t"):
+        case ast.Name(id=word) if word == variable:
             return lambda times: times
         case ast.Name(id=word) if word in CONSTANTS:
             return _constant(CONSTANTS[word])
         case ast.Name(id=word):
-            raise InputError("unknown name", value=word, hint=did_you_mean(word, ["t", *CONSTANTS]))
+            hint = did_you_mean(word, [variable, *CONSTANTS])
+            raise InputError("unknown name", value=word, hint=hint)
         case ast.BinOp(op=kind) if type(kind) in _BINARY:
-            left, right, both = _formula(node.left), _formula(node.right), _BINARY[type(kind)]
+            left, right = (_formula(side, variable) for side in (node.left, node.right))
+            both = _BINARY[type(kind)]
             return lambda times: both(left(times), right(times))
         case ast.UnaryOp(op=kind) if type(kind) in _UNARY:
-            inner, change = _formula(node.operand), _UNARY[type(kind)]
+            inner, change = _formula(node.operand, variable), _UNARY[type(kind)]
             return lambda times: change(inner(times))
         case ast.Call(func=ast.Name(id=word), keywords=[]):
-            return _call(word, node.args)
-    hint = "numbers, t, pi, e, + - * / ** and functions such as sin and exp may"
+            return _call(word, node.args, variable)
+    hint = f"numbers, {variable}, pi, e, + - * / ** and functions such as sin and exp may"
     raise InputError("must not have this in it", value=ast.unparse(node), hint=hint)
 
 
@@ -153,7 +178,7 @@ def _constant(number: float) -> _Formula:
     return lambda _: value
 
 
-def _call(word: str, arguments: list[ast.expr]) -> _Formula:
+def _call(word: str, arguments: list[ast.expr], variable: str) -> _Formula:
     if word not in FUNCTIONS:
         hint = did_you_mean(word, FUNCTIONS)
         raise InputError("unknown function", value=word, hint=hint)
@@ -161,5 +186,5 @@ def _call(word: str, arguments: list[ast.expr]) -> _Formula:
     if len(arguments) != count:
         wanted = "one argument" if count == 1 else f"{count} arguments"
         raise InputError(f"{word} takes {wanted}, not {len(arguments)}")
-    inner = [_formula(argument) for argument in arguments]
+    inner = [_formula(argument, variable) for argument in arguments]
     return lambda times: function(*(each(times) for each in inner))

@@ -15,6 +15,7 @@ from bumpstop.errors import InputError
 from bumpstop.laws.coordinate import coordinates_of
 from bumpstop.loads.moving_force import MovingForce
 from bumpstop.loads.support_motion import SupportMotion
+from bumpstop.methods import changing_speed
 from bumpstop.post.force_field import ForceField, Sizes, spread, sums
 from bumpstop.post.moving import moving_fields
 
@@ -61,6 +62,12 @@ class Forces:
     @cached_property
     def local(self) -> tuple[ForceField, ...]:
         """The forces of loads, laws, dampers, gyroscopic and circulatory effects."""
+        problem = self.response.problem
+        turning = problem.rotation is not None and self.basis.gyroscopic is not None
+        if turning or changing_speed(problem) is not None:
+            what = "is not followed here: gyroscopic forces are taken at the speed of the basis"
+            hint = "make the beams and masses with their spin, and leave the rotation out"
+            raise InputError(what, key="rotation", hint=hint)
         return (*self._loads(), *self._laws(), *self._velocity_forces())
 
     def inertia(self, times: FloatArray) -> FloatArray:

@@ -29,6 +29,7 @@ from bumpstop.laws.spring import SpringLaw
 from bumpstop.laws.stop import Stop
 from bumpstop.post.impacts import impacts_of
 from bumpstop.post.of_run import of_run
+from bumpstop.turning import turned_basis
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -163,7 +164,7 @@ class _Tangents:
         basis = response.problem.basis
         self._laws = response.problem.laws
         self._rows = [self._row(number) for number in range(len(self._laws))]
-        self._damping = velocity_matrix(basis)
+        self._damping = velocity_matrix(turned_basis(response.problem))
         self._stiffness = np.diag(basis.omega2)
         if basis.circulatory is not None:
             self._stiffness = self._stiffness + basis.circulatory

@@ -33,6 +33,7 @@ SYMBOLS = {
     "DamperLaw": "damper",
     "ZenerDamper": "damper",
     "SeismicDevice": "device",
+    "CrackedRotor": "device",
     "ForceRelation": "device",
     "UserLaw": "device",
     "OutsideProgram": "device",

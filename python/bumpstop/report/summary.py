@@ -9,6 +9,7 @@ import numpy as np
 from bumpstop.laws import (
     BucklingStop,
     CircleStop,
+    CrackedRotor,
     DamperLaw,
     ForceRelation,
     Friction,
@@ -311,6 +312,11 @@ def _law(law: Law) -> str:
     if isinstance(law, ForceRelation):
         where = f"{_where(law.coordinate)} along {_vector(law.coordinate.direction)}"
         return f"{law.name}: a force {where}, {law.force}"
+    if isinstance(law, CrackedRotor):
+        soft, stiff = (with_unit(size, "N m/rad") for size in law.extremes)
+        return (
+            f"{law.name}: a crack {_where(law.coordinate)}, {soft} to {stiff}, {law.rotation.words}"
+        )
     if isinstance(law, ZenerDamper):
         springs = (law.series_stiffness, law.parallel_stiffness, law.branch_stiffness)
         told = ", ".join(with_unit(stiffness, "N/m") for stiffness in springs)

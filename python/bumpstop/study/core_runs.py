@@ -14,6 +14,7 @@ import numpy as np
 from bumpstop import _core
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import BumpstopError
+from bumpstop.methods import changing_speed
 from bumpstop.scale import stiffest, too_stiff
 from bumpstop.simulate import LARGEST_RESIDUAL, MOST_ENERGY
 from bumpstop.study.core_outputs import core_quantities
@@ -100,7 +101,7 @@ class CoreRuns:
         quantities = core_quantities(problem, outputs)
         if method not in ("auto", "exact") or not plain or quantities is None:
             return None
-        if too_stiff(problem) is not None:
+        if changing_speed(problem) is not None or too_stiff(problem) is not None:
             return None
         laws = {law.name: number for number, law in enumerate(problem.laws)}
         return cls(model, problem.duration, quantities, laws, stiffest(problem))

@@ -18,7 +18,7 @@ pub use workers::Progress;
 use crate::error::{Error, Result};
 use crate::history::History;
 use crate::law::AnyLaw;
-use crate::method::{check_linear, piecewise_linear};
+use crate::method::{check_linear, check_steady, piecewise_linear};
 use crate::number::dispatch;
 use crate::problem::Problem;
 use lanes::{Bench, Common, Part};
@@ -52,6 +52,7 @@ impl Batch {
     /// problem has not.
     pub fn new(problem: Problem<AnyLaw>, quantities: Vec<Quantity>) -> Result<Self> {
         check_linear(piecewise_linear::NAME, &problem.laws)?;
+        check_steady(piecewise_linear::NAME, &problem.system)?;
         for quantity in &quantities {
             quantity.check(&problem)?;
         }

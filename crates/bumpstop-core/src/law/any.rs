@@ -1,9 +1,9 @@
 //! Any of the laws, so that a problem can have several kinds.
 
 use super::{
-    BucklingStop, Constraint, Damper, ForceRelation, FrictionStop, Guard, HardeningSpring,
-    HertzStop, Law, Local, LocalMotion, OutsideProgram, Piece, Power, RigidStop, SeismicDevice,
-    ShapedStop, Spring, State, Stop, UserLaw, ZenerDamper,
+    BucklingStop, Constraint, CrackedRotor, Damper, ForceRelation, FrictionStop, Guard,
+    HardeningSpring, HertzStop, Law, Local, LocalMotion, OutsideProgram, Piece, Power, RigidStop,
+    SeismicDevice, ShapedStop, Spring, State, Stop, UserLaw, ZenerDamper,
 };
 use crate::number::Number;
 use std::borrow::Cow;
@@ -37,6 +37,8 @@ pub enum AnyLaw {
     OutsideProgram(OutsideProgram),
     /// Springs around a nonlinear dashpot.
     ZenerDamper(ZenerDamper),
+    /// A crack across a shaft that turns.
+    CrackedRotor(CrackedRotor),
     /// An obstacle of any shape.
     ShapedStop(ShapedStop),
 }
@@ -119,6 +121,12 @@ impl From<ZenerDamper> for AnyLaw {
     }
 }
 
+impl From<CrackedRotor> for AnyLaw {
+    fn from(law: CrackedRotor) -> Self {
+        Self::CrackedRotor(law)
+    }
+}
+
 impl From<ShapedStop> for AnyLaw {
     fn from(stop: ShapedStop) -> Self {
         Self::ShapedStop(stop)
@@ -142,6 +150,7 @@ macro_rules! ask {
             Self::UserLaw($law) => $answer,
             Self::OutsideProgram($law) => $answer,
             Self::ZenerDamper($law) => $answer,
+            Self::CrackedRotor($law) => $answer,
             Self::ShapedStop($law) => $answer,
         }
     };

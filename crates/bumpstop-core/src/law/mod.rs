@@ -10,6 +10,7 @@
 mod affine;
 mod any;
 mod buckling_stop;
+mod cracked_rotor;
 mod damper;
 mod force_relation;
 mod formula;
@@ -31,6 +32,7 @@ mod zener_damper;
 pub use affine::{Affine, Power};
 pub use any::AnyLaw;
 pub use buckling_stop::{Buckling, BucklingStop};
+pub use cracked_rotor::{CrackedRotor, Periodic};
 pub use damper::Damper;
 pub use force_relation::ForceRelation;
 pub use formula::{Binary, Formula, Operation, Sided, Smooth};

@@ -142,6 +142,12 @@ fn local_motion<L: Law>(
         accelerations.add(forcing.forces());
     }
     accelerations.add_structure(&problem.system, q, v);
+    for rotation in problem.system.rotations() {
+        let turning = rotation.around(moment.time);
+        for (mode, parts) in turning.forces(moment.time, [q, v]).enumerate() {
+            accelerations.add_to(mode, parts.sum());
+        }
+    }
     for (index, law, state) in others(problem, states, without) {
         let [position, velocity] = problem.local(index, moment.time, q, v);
         accelerations.add_law(law, &law.force(state, &position, &velocity));
@@ -150,6 +156,12 @@ fn local_motion<L: Law>(
     accelerations.react(&held);
     let a = &*accelerations.values;
     jerks.add_structure(&problem.system, v, a);
+    for rotation in problem.system.rotations() {
+        let turning = rotation.around(moment.time);
+        for (mode, rate) in turning.force_rates(moment.time, [q, v, a]).enumerate() {
+            jerks.add_to(mode, rate);
+        }
+    }
     for (index, law, state) in others(problem, states, without) {
         let mut motion = [project(law, q), project(law, v), project(law, a)];
         if forcing.varies() {

@@ -15,6 +15,7 @@ use crate::error::{Error, Result};
 use crate::history::History;
 use crate::law::Law;
 use crate::problem::Problem;
+use crate::system::ModalSystem;
 use std::sync::Arc;
 
 /// A method and its options.
@@ -57,6 +58,9 @@ pub fn simulate<L: Law>(
     method: Method,
     observer: Observer<'_>,
 ) -> Result<History<L>> {
+    if !matches!(method, Method::Adaptive(_)) {
+        check_steady(method.name(), &problem.system)?;
+    }
     match method {
         Method::Exact => {
             check_rigid_friction(method.name(), &problem.laws)?;
@@ -67,6 +71,15 @@ pub fn simulate<L: Law>(
         Method::CentralDifference(step) => central_difference::simulate(problem, step, observer),
         Method::OneStep(scheme, step) => one_step::simulate(problem, scheme, step, observer),
         Method::Adaptive(method) => adaptive::simulate(problem, method, observer),
+    }
+}
+
+/// Refuses shafts whose speed changes, for methods whose matrices must not.
+pub(crate) fn check_steady(method: &'static str, system: &ModalSystem) -> Result<()> {
+    if system.rotations().is_empty() {
+        Ok(())
+    } else {
+        Err(Error::SpeedChanges { method })
     }
 }
 

@@ -181,7 +181,7 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
         let duration = self.problem.duration;
         while self.time < duration {
             // Loads may change their course at a knot.
-            let limit = self.equations.loads.turn(self.time).min(duration);
+            let limit = self.equations.turn(self.time).min(duration);
             self.stepping.start(self.time, &mut self.equations);
             while self.time < limit {
                 let steps = self.record.steps();

@@ -8,6 +8,7 @@ use super::slopes::slopes;
 use crate::energy::{self, Ledger};
 use crate::law::{Law, Local, Piece, State, project};
 use crate::problem::Problem;
+use crate::rotation::Turning;
 
 /// Where the numbers stand.
 #[derive(Debug, Clone)]
@@ -163,6 +164,8 @@ pub(crate) struct Equations<'a, L> {
     pub problem: &'a Problem<L>,
     pub layout: Layout,
     pub loads: Loads<'a>,
+    /// Shafts whose speed changes.
+    turning: Vec<Turning<'a>>,
     /// The laws' states, and their matrices where these say all.
     states: Vec<State>,
     pieces: Vec<Option<Piece>>,
@@ -176,11 +179,22 @@ impl<'a, L: Law> Equations<'a, L> {
             problem,
             layout,
             loads: Loads::new(&problem.forcing),
+            turning: Vec::new(),
             states: Vec::new(),
             pieces: Vec::new(),
             moves: problem.forcing.moved().next().is_some(),
             changing: vec![0.0; problem.system.modes()],
         }
+    }
+
+    /// Turns to the stretch of time from an instant on, in which loads and shafts do not change
+    /// their course; returns where it ends.
+    pub(crate) fn turn(&mut self, time: f64) -> f64 {
+        self.turning.clear();
+        let rotations = self.problem.system.rotations().iter();
+        (self.turning).extend(rotations.map(|rotation| rotation.around(time)));
+        let ends = self.turning.iter().map(Turning::end);
+        ends.fold(self.loads.turn(time), f64::min)
     }
 
     /// Turns to other states of the laws.
@@ -230,6 +244,7 @@ impl<'a, L: Law> Equations<'a, L> {
             }
         }
         self.add_structure([q, v], accelerations, works);
+        self.add_rotations(time, [q, v], accelerations, works);
         for (index, law) in self.problem.laws.iter().enumerate() {
             let (position, velocity, speed) = self.local(index, time, [q, v]);
             let state = layout.state(index, self.states[index], numbers);
@@ -256,6 +271,12 @@ impl<'a, L: Law> Equations<'a, L> {
     pub(crate) fn answers(&self, time: f64, numbers: &[f64]) -> [f64; 2] {
         let motion = self.layout.motion(numbers);
         let mut sums = [0.0; 2];
+        for turning in &self.turning {
+            let [damping, stiffness] = turning.sizes(time);
+            // A quarter turn of the shaft is a quarter of a period of its forces.
+            sums[0] += stiffness + turning.speed(time).powi(2);
+            sums[1] += damping;
+        }
         for (index, law) in self.problem.laws.iter().enumerate() {
             let (position, velocity, _) = self.local(index, time, motion);
             let state = self.layout.state(index, self.states[index], numbers);
@@ -271,6 +292,18 @@ impl<'a, L: Law> Equations<'a, L> {
             }
         }
         sums
+    }
+
+    /// What shafts do whose speed changes. Gyroscopic forces do no work.
+    fn add_rotations(&self, time: f64, motion: [&[f64]; 2], to: &mut [f64], works: &mut [f64]) {
+        for turning in &self.turning {
+            let modes = to.iter_mut().zip(motion[1]);
+            for ((a, v), parts) in modes.zip(turning.forces(time, motion)) {
+                *a += parts.sum();
+                works[CIRCULATORY] += parts.accelerating * v;
+                works[LOADS] += parts.unbalance * v;
+            }
+        }
     }
 
     /// What stiffness, damping and the matrices that couple modes do.

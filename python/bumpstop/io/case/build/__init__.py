@@ -21,6 +21,7 @@ from bumpstop.problem import Problem
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
     from bumpstop.io.case.tables.run import RunTable
+    from bumpstop.loads import ShaftRotation
     from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["STRUCTURE", "Builder"]
@@ -28,7 +29,10 @@ __all__ = ["STRUCTURE", "Builder"]
 STRUCTURE = (*SOURCES, *keys_of(StructureTables), "components", "joints", "basis")
 """Tables that the modes are made of."""
 
-_IN_TIME = ("stops", "laws", "loads", "base_motion", "initial", "gauges", "outputs", "results")
+_IN_TIME = (
+    *("stops", "laws", "loads", "base_motion", "rotation", "initial"),
+    *("gauges", "outputs", "results"),
+)
 """Tables that mean nothing where nothing is simulated."""
 
 _OF_TIME = {
@@ -104,6 +108,7 @@ class Builder:
                 sample=run.sample,
                 gauges=built_gauges(case),
                 outputs=[(output.node, output.dof) for output in case.outputs],
+                rotation=_rotation(case, self._folder),
             )
 
     def basis(self, case: CaseFile) -> ModalBasis:
@@ -134,6 +139,15 @@ def _same_basis(one: CaseFile, other: CaseFile) -> bool:
 def _functions(load: str, table: str) -> dict[str, str]:
     """Return what the functions of time of a load, and their arguments, are called in its table."""
     return {f"{load}.{argument}": f"{table}.{key}" for argument, key in _OF_TIME.items()}
+
+
+def _rotation(case: CaseFile, folder: Path) -> ShaftRotation | None:
+    """Return how the shafts turn; most do not."""
+    if case.rotation is None:
+        return None
+    from bumpstop.io.case.build.rotation import built_rotation
+
+    return built_rotation(case, folder)
 
 
 def _renamed(case: CaseFile) -> dict[str, str]:

@@ -61,7 +61,12 @@ def built_laws(case: CaseFile, folder: Path) -> list[Law]:
             laws.extend(_stops(name, table, folder))
     for name, law in case.laws.items():
         with keyed(f"laws.{name}"):
-            laws.append(_connection(name, law))
+            if law.type == "cracked_rotor":
+                from bumpstop.io.case.build.cracked_rotor import built_crack
+
+                laws.append(built_crack(name, law, case, folder))
+            else:
+                laws.append(_connection(name, law))
     return laws
 
 

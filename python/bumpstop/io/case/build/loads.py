@@ -31,11 +31,12 @@ BASE_MOTION = "base_motion"
 
 def built_loads(case: CaseFile, folder: Path) -> list[Load]:
     """Return the loads that the tables describe; files in them are relative to the folder."""
-    built = [_load(name, table, folder) for name, table in case.loads.items()]
+    built = [_load(case, name, folder) for name in case.loads]
     return built if case.base_motion is None else [*built, _base_motion(case.base_motion, folder)]
 
 
-def _load(name: str, table: LoadTable, folder: Path) -> Load:
+def _load(case: CaseFile, name: str, folder: Path) -> Load:
+    table: LoadTable = case.loads[name]
     with keyed(f"loads.{name}"):
         if table.type == "gravity":
             return loads.Gravity(name, acceleration=table.acceleration)
@@ -43,6 +44,11 @@ def _load(name: str, table: LoadTable, folder: Path) -> Load:
             from bumpstop.io.case.build.random import built_turbulence
 
             return built_turbulence(name, table, folder)
+        if table.type == "unbalance":
+            from bumpstop.io.case.build.rotation import required_rotation
+
+            own = {key: value for key, value in table if key != "type"}
+            return loads.Unbalance(name, rotation=required_rotation(case, folder), **own)
         made: Load = getattr(loads, _CLASSES[table.type])(name, **_said(table, folder))
         return made
 

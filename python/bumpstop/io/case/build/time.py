@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.time import FactorTable, TimeKeys, TimeTableTable
     from bumpstop.loads.time import TimeFunction
 
-__all__ = ["built_time"]
+__all__ = ["built_table", "built_time"]
 
 _OF_FILES = ("columns", "step", "units")
 """What is said of a file of times and values."""
@@ -50,7 +50,7 @@ def _sum(table: FactorTable, folder: Path, tolerance: float) -> list[TimeFunctio
             functions.append(loads.Polynomial(table.polynomial))
     if table.table is not None:
         with keyed("table"):
-            functions.append(_time_table(table.table, folder))
+            functions.append(built_table(table.table, folder))
     for number, sweep in enumerate(table.sweeps):
         with keyed(f"sweeps.{number}"):
             functions.append(loads.Sweep(**dict(sweep), tolerance=tolerance))
@@ -66,7 +66,8 @@ def _sum(table: FactorTable, folder: Path, tolerance: float) -> list[TimeFunctio
     return functions
 
 
-def _time_table(table: TimeTableTable, folder: Path) -> loads.TimeTable:
+def built_table(table: TimeTableTable, folder: Path) -> loads.TimeTable:
+    """Return the straight lines that a table of values describes."""
     if table.file is None:
         for key in _OF_FILES:
             if getattr(table, key) is not None:

@@ -13,6 +13,7 @@ from bumpstop.structure.dofs import DOFS, Dof
 
 __all__ = [
     "ContactStiffness",
+    "CrackPoints",
     "Curve",
     "DampingSlopes",
     "Deformations",
@@ -30,6 +31,8 @@ _COEFFICIENT = Dimension("a pure number", "", "0.2")
 _TURN = Dimension("an angle", "rad", "30 deg")
 _DEFORMATION = Dimension("a length", "m", "2 mm")
 _FORCE = Dimension("a force", "N", "5 kN")
+_ANGULAR_STIFFNESS = Dimension("an angular stiffness", "N m/rad", "2 MN m/rad")
+_ANGULAR_SLOPE = Dimension("a slope of an angular stiffness", "N m/rad^2", "3e5 N m/rad^2")
 _SLOPE = Dimension("a stiffness", "N/m", "18 kN/m")
 _SPEED = Dimension("a speed", "m/s", "0.2 m/s")
 _DAMPING = Dimension("a damping constant", "N s/m", "30 N s/m")
@@ -142,6 +145,19 @@ def _read_curve(value: object) -> list[tuple[float, float]]:
     return read_list(value, _read_point, "points [deformation, force]")
 
 
+def _read_crack(value: object) -> list[tuple[float, ...]]:
+    return read_list(value, _read_crack_point, "points [angle, stiffness]")
+
+
+def _read_crack_point(value: object) -> tuple[float, ...]:
+    if not isinstance(value, list) or len(value) not in (2, 3):
+        what = "must be an angle and a stiffness, and the derivative of that or none"
+        raise InputError(what, value=value)
+    dimensions = (_TURN, _ANGULAR_STIFFNESS, _ANGULAR_SLOPE)
+    both = zip(value, dimensions, strict=False)
+    return tuple(read_number(number, dimension) for number, dimension in both)
+
+
 def _read_profile(value: object) -> list[tuple[float, float]]:
     return read_list(value, _read_corner, "corners [angle, radius]")
 
@@ -209,6 +225,13 @@ SpeedCurve = Annotated[
 Curve = Annotated[
     list[tuple[float, float]],
     Plain(_read_curve, {"type": "array", "items": _POINT, "minItems": 2}),
+]
+CrackPoints = Annotated[
+    list[tuple[float, ...]],
+    Plain(
+        _read_crack,
+        {"type": "array", "items": _POINT | {"maxItems": 3}, "minItems": 4},
+    ),
 ]
 Profile = Annotated[
     list[tuple[float, float]],

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from bumpstop.io.case.tables.outputs import OutputTable
     from bumpstop.io.case.tables.parts import PartTable
     from bumpstop.io.case.tables.results import ResultTable
+    from bumpstop.io.case.tables.rotation import RotationTable
 else:
     BaseMotionTable = later("base_motion", "BaseMotionTable")
     ComponentTable = later("components", "ComponentTable")
@@ -37,6 +38,7 @@ else:
     OutputTable = later("outputs", "OutputTable")
     PartTable = later("parts", "PartTable")
     ResultTable = later("results", "ResultTable")
+    RotationTable = later("rotation", "RotationTable")
 from bumpstop.io.case.tables.table import Field
 
 __all__ = ["CaseFile"]
@@ -73,6 +75,7 @@ class CaseFile(StructureTables):
     base_motion: BaseMotionTable | None = Field(
         default=None, description="How the supports move, all together"
     )
+    rotation: RotationTable | None = Field(default=None, description="How the shafts turn")
     initial: InitialTable | None = Field(default=None, description="The state at t = 0")
     gauges: dict[Name, GaugeTable] = Field(default={}, description="Strain gauges, by name")
     outputs: list[OutputTable] = Field(default=[], description="More motions to write to files")

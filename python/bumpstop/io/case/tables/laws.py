@@ -3,6 +3,7 @@
 from typing import Annotated, Literal
 
 from bumpstop.io.case.fields.laws import (
+    CrackPoints,
     Curve,
     DampingSlopes,
     Deformations,
@@ -23,6 +24,7 @@ from bumpstop.io.case.fields.words import Node, OneDof, Text, choice
 from bumpstop.io.case.tables.table import Field, Kinds, Table
 
 __all__ = [
+    "CrackedRotorTable",
     "DamperLawTable",
     "ForceRelationTable",
     "HardeningSpringTable",
@@ -160,12 +162,49 @@ class HardeningSpringTable(ConnectionTable):
     )
 
 
+class CrackedRotorTable(Table):
+    """A crack across a shaft that turns as ``[rotation]`` says."""
+
+    type: Literal["cracked_rotor"] = Field(description="Kind of law")
+    node: Node = Field(description="The node on one side of the crack")
+    other: Node | None = Field(
+        default=None, description="The node on its other side; the ground where left out"
+    )
+    axis: Number3 = Field(default=(1.0, 0.0, 0.0), description="Direction of the shaft")
+    stiffness: Text | None = Field(
+        default=None,
+        description="Bending stiffness in N m/rad as a formula in phi, the direction of the "
+        'bending in the shaft, in rad: "2e6 + 1e6 * sin(phi)"',
+    )
+    derivative: Text | None = Field(
+        default=None,
+        description="Its derivative, in N m/rad2, as a formula; that of the stiffness where left "
+        "out",
+    )
+    points: CrackPoints | None = Field(
+        default=None,
+        description="Instead of a formula: points [phi, stiffness], or [phi, stiffness, "
+        "derivative], around one turn",
+    )
+    file: Text | None = Field(
+        default=None,
+        description="Instead of a formula: a file of these points, relative to the case file; "
+        "columns parted by commas or blanks, remarks behind #",
+    )
+    interpolation: Annotated[str, choice("spline", "linear")] = Field(
+        default="spline",
+        description="How it goes between points: by a periodic cubic spline, or by straight lines, "
+        "which need the derivative",
+    )
+
+
 LawTable = Annotated[
     SpringLawTable
     | ZenerDamperTable
     | DamperLawTable
     | ForceRelationTable
     | SeismicDeviceTable
-    | HardeningSpringTable,
+    | HardeningSpringTable
+    | CrackedRotorTable,
     Kinds("type"),
 ]

@@ -5,12 +5,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from bumpstop.io.case.fields.counts import Count, CountFromZero
 from bumpstop.io.case.fields.quantities import (
     Acceleration3,
+    Angle,
     Force3,
     Length,
     LineForce3,
+    Mass,
     Moment3,
     Number3,
     PositiveLength,
+    PositiveNumber,
     PositiveTime,
     Time,
     Velocity,
@@ -33,6 +36,7 @@ __all__ = [
     "LoadTable",
     "MovingForceTable",
     "TurbulenceTable",
+    "UnbalanceTable",
 ]
 
 
@@ -111,12 +115,29 @@ class TurbulenceTable(Table):
     )
 
 
+class UnbalanceTable(Table):
+    """A mass out of the centre of a shaft that turns as ``[rotation]`` says."""
+
+    type: Literal["unbalance"] = Field(description="Kind of load")
+    node: Node = Field(description="The node it acts on")
+    moment: PositiveNumber | None = Field(
+        default=None, description="Mass times its distance from the centre, in kg m"
+    )
+    mass: Mass | None = Field(default=None, description="Instead of the moment: the mass, in kg")
+    eccentricity: Length | None = Field(
+        default=None, description="Instead of the moment: its distance from the centre, in m"
+    )
+    phase: Angle = Field(default=0.0, description="Angle of the mass in the shaft, in rad")
+    axis: Number3 = Field(default=(1.0, 0.0, 0.0), description="Direction of the shaft")
+
+
 LoadTable = Annotated[
     ForceTable
     | LineForceTable
     | MovingForceTable
     | GravityTable
     | TurbulenceTable
+    | UnbalanceTable
     | SupportMotionTable,
     Kinds("type"),
 ]
