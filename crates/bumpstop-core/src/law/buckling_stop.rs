@@ -43,6 +43,8 @@ pub struct BucklingStop {
     buckling: Buckling,
     /// A typical time of the contact on the structure, in s/rad; it makes lengths of velocities.
     pace: f64,
+    /// Largest crushings at which what is stored bends.
+    bends: Vec<f64>,
 }
 
 // Numbers of the states; the first three are those of a stop.
@@ -57,14 +59,42 @@ const LET_GO: u8 = 10;
 /// The part of the crushing by which a residual one may be negative by rounding.
 const SPARE: f64 = 1e-12;
 
-/// Halvings of an interval that holds the residual crushing.
-const HALVINGS: usize = 200;
-
 /// The line along which a crushed stop unloads.
 #[derive(Debug, Clone, Copy)]
 struct Line {
     residual: f64,
     stiffness: f64,
+}
+
+/// The unloading stiffness between two points of its table, by the residual crushing.
+#[derive(Debug, Clone, Copy)]
+struct Section {
+    constant: f64,
+    slope: f64,
+}
+
+impl Section {
+    /// Behind so many points.
+    fn of(buckling: &Buckling, points: usize) -> Self {
+        let table = &buckling.unloading;
+        if points == 0 || points == table.len() {
+            let [_, constant] = table[points.max(1) - 1];
+            return Self {
+                constant,
+                slope: 0.0,
+            };
+        }
+        let [[p, k], [q, l]] = [table[points - 1], table[points]];
+        let slope = (l - k) / (q - p);
+        Self {
+            constant: k - slope * p,
+            slope,
+        }
+    }
+
+    fn at(&self, residual: f64) -> f64 {
+        self.constant + self.slope * residual
+    }
 }
 
 impl BucklingStop {
@@ -132,11 +162,12 @@ impl BucklingStop {
         let stiffness = elastic.stiffest().stiffness[0][0];
         let stop = Self {
             pace: 1.0 / (stiffness * size2).sqrt(),
+            bends: Self::bends_of(&buckling),
             elastic,
             buckling,
         };
         let [buckles, plateau_ends, fall_ends] = stop.stages();
-        let spare = buckles + (fall_ends - plateau_ends) - stop.give(0.0).0;
+        let spare = buckles + (fall_ends - plateau_ends) - stop.bends[0];
         if spare < -SPARE * buckles {
             return Err(Error::Negative {
                 what: "the residual crushing of a stop that has just buckled",
@@ -195,53 +226,49 @@ impl BucklingStop {
         }
     }
 
-    /// What unloading gives back from the post-buckling force, at a residual crushing: with its
-    /// slope.
-    fn give(&self, residual: f64) -> (f64, f64) {
-        let (table, force) = (&self.buckling.unloading, self.buckling.post_force);
-        let above = table.partition_point(|[p, _]| *p <= residual);
-        let known = |at: usize| (force / table[at][1], 0.0);
-        if above == 0 {
-            return known(0);
+    /// Where the residual crushing begins to grow with the largest one, and where the table of
+    /// unloading stiffnesses bends, as largest crushings in ascending order.
+    fn bends_of(buckling: &Buckling) -> Vec<f64> {
+        let (table, force) = (&buckling.unloading, buckling.post_force);
+        let above = table.partition_point(|[p, _]| *p <= 0.0);
+        let at_none = force / Section::of(buckling, above).at(0.0);
+        let knots = table[above..].iter().map(|[p, k]| p + force / k);
+        std::iter::once(at_none).chain(knots).collect()
+    }
+
+    /// The number of bends that a largest crushing is beyond.
+    fn bends_before(&self, crushing: f64) -> usize {
+        self.bends.partition_point(|bend| *bend <= crushing)
+    }
+
+    /// The first bend after the crushing that a state began to load at.
+    fn next_bend(&self, state: State) -> Option<f64> {
+        if self.is_piecewise_linear() {
+            return None;
         }
-        if above == table.len() {
-            return known(above - 1);
-        }
-        let [[p, k], [q, l]] = [table[above - 1], table[above]];
-        let slope = (l - k) / (q - p);
-        let stiffness = k + slope * (residual - p);
-        (force / stiffness, -force * slope / (stiffness * stiffness))
+        self.bends.get(self.bends_before(state.memory[0])).copied()
     }
 
     /// What unloading gives back after a largest crushing, and how the residual crushing, which
-    /// is the rest, changes with that.
-    fn given_back(&self, crushing: f64) -> (f64, f64) {
-        let excess = |residual: f64| residual + self.give(residual).0 - crushing;
-        if excess(0.0) >= 0.0 {
+    /// is the rest, changes with that: as between the bends before and after another crushing.
+    fn given_back(&self, crushing: f64, near: f64) -> (f64, f64) {
+        let Some(section) = self.bends_before(near).checked_sub(1) else {
             return (crushing, 0.0);
-        }
-        if self.buckling.unloading.len() == 1 {
-            return (self.give(0.0).0, 1.0);
-        }
-        let (mut low, mut high) = (0.0, crushing);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if excess(middle) < 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let (give, slope) = self.give(low);
-        (give, 1.0 / (1.0 + slope))
+        };
+        let knots = self.buckling.unloading.iter();
+        let first = knots.take_while(|[p, _]| *p <= 0.0).count();
+        let force = self.buckling.post_force;
+        // With the stiffness `K = k + slope p` at the residual crushing `p = s - F/K`.
+        let Section { constant, slope } = Section::of(&self.buckling, first + section);
+        let sum = constant + slope * crushing;
+        let stiffness = 0.5 * (sum + (sum * sum - 4.0 * slope * force).max(0.0).sqrt());
+        let give = force / stiffness;
+        (give, 1.0 / (1.0 - slope * give / stiffness))
     }
 
     /// The line along which it unloads from a largest crushing with its force.
     fn unloading(&self, [crushing, force]: [f64; 2]) -> Line {
-        let (give, _) = self.given_back(crushing);
+        let (give, _) = self.given_back(crushing, crushing);
         Line {
             residual: crushing - give,
             stiffness: force / give,
@@ -302,6 +329,11 @@ impl BucklingStop {
         State::with_memory(UNLOADING[(number - PLATEAU) as usize], state.memory)
     }
 
+    /// Guards of a state that loads on, beside the bends of what is stored.
+    fn own_guards(&self, state: State) -> usize {
+        if state.number == POST { 1 } else { 2 }
+    }
+
     fn is_damped(&self) -> bool {
         self.buckling.post_damping > 0.0
     }
@@ -336,10 +368,11 @@ impl BucklingStop {
         }
     }
 
-    /// What is stored per crushing while it loads on: the slope of `F (s - p)/2`.
-    fn storing(&self, number: u8, crushing: f64) -> f64 {
-        let (constant, slope) = self.loading(number);
-        let (give, rate) = self.given_back(crushing);
+    /// What is stored per crushing while it loads on: the slope of `F (s - p)/2`. It goes on
+    /// smoothly beyond the bend that ends the state's stretch.
+    fn storing(&self, state: State, crushing: f64) -> f64 {
+        let (constant, slope) = self.loading(state.number);
+        let (give, rate) = self.given_back(crushing, state.memory[0]);
         0.5 * (slope * give + (constant + slope * crushing) * (1.0 - rate))
     }
 }
@@ -448,8 +481,9 @@ impl Law for BucklingStop {
     fn guard_count(&self, state: State) -> usize {
         match state.number {
             CLOSED => 2,
-            PLATEAU | FALL | LET_GO => 2,
-            POST | CRUSHED => 1,
+            PLATEAU..=POST => self.own_guards(state) + usize::from(self.next_bend(state).is_some()),
+            LET_GO => 2,
+            CRUSHED => 1,
             number if UNLOADING.contains(&number) => 2,
             _ => Self::before(state).map_or(0, |before| self.elastic.guard_count(before)),
         }
@@ -460,6 +494,10 @@ impl Law for BucklingStop {
         let line = || self.unloading(state.memory);
         match (state.number, index) {
             (CLOSED, 1) => self.crushing_guard("buckling", buckles, -1.0),
+            (PLATEAU..=POST, index) if index == self.own_guards(state) => {
+                let bend = self.next_bend(state).unwrap_or(f64::INFINITY);
+                self.crushing_guard("bend of the residual crushing", bend, -1.0)
+            }
             (PLATEAU, 1) => self.crushing_guard("falling", plateau_ends, -1.0),
             (FALL, 1) => self.crushing_guard("crushing", fall_ends, -1.0),
             (PLATEAU..=POST, _) => Guard {
@@ -497,6 +535,10 @@ impl Law for BucklingStop {
         let with = |number| State::with_memory(number, state.memory);
         match (state.number, guard) {
             (CLOSED, 1) => self.load(self.loading_at(buckles), buckles),
+            (PLATEAU..=POST, guard) if guard == self.own_guards(state) => {
+                let bend = self.next_bend(state).unwrap_or(state.memory[0]);
+                self.load(state.number, bend)
+            }
             (PLATEAU, 1) => self.load(self.loading_at(plateau_ends), plateau_ends),
             (FALL, 1) => self.load(POST, fall_ends),
             (PLATEAU..=POST, _) => {
@@ -527,8 +569,9 @@ impl Law for BucklingStop {
         let give = if UNLOADING.contains(&state.number) {
             crushing - T::of(self.unloading(state.memory).residual)
         } else {
-            let slope = |[s]: [f64; 1]| [1.0 - self.given_back(s).1];
-            T::function([crushing], |[s]| self.given_back(s).0, slope)
+            let near = state.memory[0];
+            let slope = |[s]: [f64; 1]| [1.0 - self.given_back(s, near).1];
+            T::function([crushing], |[s]| self.given_back(s, near).0, slope)
         };
         T::of(0.5) * spring.at(position, &still) * give
     }
@@ -558,11 +601,7 @@ impl Law for BucklingStop {
             return power;
         }
         let crushing = self.crushing().at(position, velocity);
-        let storing = T::function(
-            [crushing],
-            |[s]| self.storing(state.number, s),
-            |_| [f64::NAN],
-        );
+        let storing = T::function([crushing], |[s]| self.storing(state, s), |_| [f64::NAN]);
         power + storing * velocity[0]
     }
 
