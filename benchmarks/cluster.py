@@ -17,9 +17,13 @@ from distributed import LocalCluster
 
 import bumpstop as bs
 from bumpstop.study.evaluation import Evaluator
+from bumpstop.study.pool import usable_cores
 
 CASE = Path(__file__).parents[1] / "cases" / "sdnl32" / "case.toml"
 CORES = 1000
+SCALING = 0.75
+"""Of all cores of this machine: scheduler, client and store work on them, too."""
+BUSY = 0.95
 
 
 def study(runs: int, chunk: int) -> bs.Study:
@@ -84,27 +88,50 @@ def cost_of_a_write(chunk: int) -> float:
         return (time.process_time() - started) / many.layout.chunks
 
 
-def main() -> None:
-    """Measure, and say what it comes to."""
-    many = study(int(sys.argv[1]) if len(sys.argv) > 1 else 2000, 50)
-    run = cost_of_a_run(many)
-    print(f"a run                {1e3 * run:6.2f} ms of a core")
-    print(f"here, one process    {rate(many, None):6.0f} runs a second")
-    for workers in (1, 2):
+def scaled(many: bs.Study) -> tuple[dict[int, float], float]:
+    """Return runs a second by the number of workers here, and the cost of a task in seconds."""
+    rates = {}
+    for workers in sorted({1, usable_cores()}):
         with LocalCluster(
             n_workers=workers, threads_per_worker=1, dashboard_address=None
         ) as scheduler:
             rate(study(64, 8), scheduler)  # lets workers import what they need
-            print(f"dask, {workers} workers      {rate(many, scheduler):6.0f} runs a second")
+            rates[workers] = rate(many, scheduler)
+            print(f"dask, workers: {workers}      {rates[workers]:6.0f} runs a second")
             task = cost_of_a_task(scheduler)
     print(f"a task               {1e3 * task:6.2f} ms of client and scheduler")
-    for chunk in (50, 5000):
-        write = cost_of_a_write(chunk)
-        print(f"a chunk of {chunk:<10}{1e3 * write:6.2f} ms to write")
-        period = max(task + write, run * chunk / CORES)
-        busy = run * chunk / CORES / period
-        print(f"  {CORES:,} cores: {chunk / period:,.0f} runs a second, {busy:.0%} of them busy")
+    return rates, task
+
+
+def busy_at(chunk: int, run: float, task: float) -> float:
+    """Print what many cores would do with chunks of a size; return how busy they are."""
+    write = cost_of_a_write(chunk)
+    print(f"a chunk of {chunk:<10}{1e3 * write:6.2f} ms to write")
+    period = max(task + write, run * chunk / CORES)
+    busy = run * chunk / CORES / period
+    print(f"  {CORES:,} cores: {chunk / period:,.0f} runs a second, {busy:.0%} of them busy")
+    return busy
+
+
+def main() -> int:
+    """Measure, say what it comes to, and judge; return 1 if a target was missed."""
+    many = study(int(sys.argv[1]) if len(sys.argv) > 1 else 2000, 50)
+    run = cost_of_a_run(many)
+    print(f"a run                {1e3 * run:6.2f} ms of a core")
+    rate(study(64, 8), None)
+    print(f"here, one process    {rate(many, None):6.0f} runs a second")
+    rates, task = scaled(many)
+    busy = [busy_at(chunk, run, task) for chunk in (50, 5000)]
+    most = max(rates)
+    checks = [
+        (f"{most} workers over one, for each worker", rates[most] / rates[1] / most, SCALING),
+        (f"part of {CORES:,} cores that is busy with chunks of 5000", busy[-1], BUSY),
+    ]
+    print()
+    for name, reached, least in checks:
+        print(f"{'PASS' if reached >= least else 'MISS'}  {name}: {reached:.2f} (at least {least})")
+    return 0 if all(reached >= least for _, reached, least in checks) else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -460,6 +460,12 @@ class Quantity:
     def energy(term: str, times: Array) -> Quantity:
         """Return a term of the ledger, in J."""
     @staticmethod
+    def extreme(of: Quantity, statistic: str) -> Quantity:
+        """Return the ``maximum``, ``minimum`` or ``peak`` of a quantity of time.
+
+        Its instants are samples; the value is looked for between those next to the largest.
+        """
+    @staticmethod
     def impacts(law: int, column: str, statistic: str | None = None, impact: int = 0) -> Quantity:
         """Return a number of an impact, counted from 0, or a statistic of those of all.
 
@@ -468,6 +474,9 @@ class Quantity:
     @staticmethod
     def last_impacts(law: int, column: str, count: int) -> Quantity:
         """Return a number of each of the last impacts; NaN in front where there are fewer."""
+    @staticmethod
+    def largest_force(law: int) -> Quantity:
+        """Return the largest force of a law, in N; NaN where it never pushes."""
     @staticmethod
     def impact_count(law: int | None = None) -> Quantity:
         """How many impacts there are on a law, or on all."""

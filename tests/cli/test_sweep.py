@@ -17,7 +17,7 @@ import pytest
 
 import bumpstop as bs
 from bumpstop.cli import main
-from tests.study.bouncing import CASE, STUDY, written
+from tests.study.bouncing import CASE, IN_PYTHON, STUDY, written
 
 
 def content(store: Path) -> dict[str, bytes]:
@@ -210,7 +210,7 @@ def wait_for(file: Path, process: subprocess.Popen[Any]) -> None:
 
 def test_killed_at_any_instant_and_resumed(tmp_path: Path) -> None:
     slow = CASE.replace("duration = 2.0", "duration = 2.0\nsample = 2e-6")
-    many = STUDY.replace("count = 5", "count = 30")
+    many = IN_PYTHON.replace("count = 5", "count = 30")
     study = written(tmp_path, many, slow)
     whole, store = tmp_path / "whole.zarr", tmp_path / "study.zarr"
     assert main(["sweep", str(study), "--store", str(whole), "--workers", "1"]) == 0
@@ -228,8 +228,9 @@ def test_killed_at_any_instant_and_resumed(tmp_path: Path) -> None:
     assert content(store) == content(whole)
 
 
-def test_interrupted(tmp_path: Path) -> None:
-    study = written(tmp_path, STUDY.replace("count = 5", "count = 50000"))
+@pytest.mark.parametrize("given", [STUDY, IN_PYTHON], ids=["core", "python"])
+def test_interrupted(given: str, tmp_path: Path) -> None:
+    study = written(tmp_path, given.replace("count = 5", "count = 50000"))
     words = [sys.executable, "-m", "bumpstop", "sweep", str(study), "--workers", "2"]
     with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
         wait_for(tmp_path / "study.zarr" / "status" / "c" / "0", process)

@@ -152,6 +152,31 @@ def test_a_study_at_many_times_is_a_diagram(grid: tuple[bs.Study, xr.Dataset]) -
         bs.bifurcation_diagram(grid[1], "place")
 
 
+@pytest.mark.parametrize("each", [4, MOST_MARKS])
+def test_ways_up_and_down_have_colours_of_their_own(each: int) -> None:
+    loads, kinds = np.array([0.5, 1.0, 2.0]), ("way", "run", "speed_impact")
+    speed = np.random.default_rng(4).random((2, 3, each))
+    speed[0, 0, :2] = np.nan  # fewer impacts than were asked for
+    found = xr.Dataset(
+        {"speed": (kinds, speed, {"units": "m/s"}), "failed": (kinds[:2], speed[..., -1] < 0)},
+        coords={"way": ["up", "down"], "loads": ("run", loads)},
+    )
+    figure = bs.bifurcation_diagram(found, "speed")
+    up, down = figure.data
+    assert (up.name, down.name) == ("up", "down")
+    assert figure.layout.showlegend
+    assert f"{6 * each - 2:,} points" in figure.layout.title.subtitle.text
+    assert figure.layout.yaxis.title.text == "Speed (mm/s)"
+    if each == 4:
+        assert up.marker.color != down.marker.color
+        assert down.x.tolist() == np.repeat(loads, each).tolist()
+        assert down.y == pytest.approx(1e3 * speed[1].ravel())
+    else:
+        assert up.colorscale != down.colorscale
+        assert np.nansum(10.0**up.z) == pytest.approx(3 * each - 2)
+        assert np.nansum(10.0**down.z) == pytest.approx(3 * each)
+
+
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
     sampled = STUDY.replace('"50 N/m", to = 800, count = 5, spacing = "log"', "50, to = 800")

@@ -46,6 +46,17 @@ times = [0.05, 1.9]
 chunk = 3
 """
 
+IN_PYTHON = STUDY.replace(
+    "[execution]",
+    """[outputs.mean]
+quantity = "displacement"
+node = "P"
+dof = "dz"
+statistic = "mean"
+[execution]""",
+)
+"""The same with an output that the core does not read, so that processes make the runs."""
+
 
 def written(folder: Path, study: str = STUDY, case: str = CASE) -> Path:
     """Write case and study into a folder, and return the study's path."""

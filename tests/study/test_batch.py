@@ -21,7 +21,12 @@ KEPT = {
     "speed": bs.Output(quantity="velocity", node="P", dof="dx", statistic="last"),
     "gap": bs.Output(quantity="gap", stop="wall", times=[0.1]),
     "push": bs.Output(quantity="stop_force", stop="wall", times=[0.09, 0.1]),
+    "highest": bs.Output(quantity="displacement", node="P", dof="dx", statistic="maximum"),
+    "lowest": bs.Output(quantity="gap", stop="wall", statistic="minimum"),
+    "fastest": bs.Output(quantity="velocity", node="P", dof="dx", statistic="peak"),
+    "hardest": bs.Output(quantity="stop_force", stop="wall", statistic="maximum"),
     "force": bs.Output(quantity="peak_force", stop="wall", statistic="maximum"),
+    "largest": bs.Output(quantity="largest_force", stop="wall"),
     "first": bs.Output(quantity="impact_start", stop="wall", impact=1),
     "seventh": bs.Output(quantity="impact_end", stop="wall", impact=7),
     "impulse": bs.Output(quantity="impulse", stop="wall", statistic="last"),
@@ -75,6 +80,10 @@ def test_a_ball_on_a_spring_against_closed_forms() -> None:
     found = bs.batch(ball(), varied, KEPT)
     speed, rate = scale * SPEED, np.sqrt(stiffness / MASS)
     assert found.force.values == pytest.approx(speed * MASS * rate, rel=1e-12)
+    assert np.array_equal(found.largest, found.force)
+    assert found.lowest.values == pytest.approx(-speed / rate, rel=1e-12)
+    assert found.highest.values == pytest.approx(gap + speed / rate, rel=1e-12)
+    assert found.fastest.values == pytest.approx(speed, rel=1e-12)
     assert found["first"].values == pytest.approx(gap / speed, rel=1e-12, abs=1e-15)
     assert found.impulse.values == pytest.approx(2.0 * MASS * speed, rel=1e-12)
     assert found.speed.values == pytest.approx(-speed, rel=1e-11)

@@ -1,5 +1,7 @@
 """Batches eight runs at a time: against single runs, and against fifty digits."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -19,6 +21,9 @@ KEPT = {
     "first": bs.Output(quantity="impact_start", stop="spring", impact=1),
     "end": bs.Output(quantity="impact_end", stop="spring", statistic="last"),
     "closing": bs.Output(quantity="closing_speed", stop="spring", statistic="maximum"),
+    "largest": bs.Output(quantity="largest_force", stop="spring"),
+    "peak": bs.Output(quantity="peak_force", stop="spring", impact=1),
+    "when": bs.Output(quantity="peak_time", stop="spring", impact=1),
     "impacts": bs.Output(quantity="impacts"),
     "events": bs.Output(quantity="events"),
 }
@@ -77,6 +82,21 @@ def test_lanes_against_fifty_digits() -> None:
         assert found[run] == pytest.approx(tip, rel=0, abs=1e-13 * np.abs(tip).max())
 
 
+def test_the_largest_force_is_that_of_the_response() -> None:
+    problem, varied = beam(-30.0), drawn(40)
+    force = KEPT["largest"]
+    found = bs.batch(problem, varied, {"largest": force})
+    assert problem.initial is not None
+    _, velocity = problem.initial.modal_state(problem.basis)
+    for run in range(40):
+        stiffness, gap, scale = (float(values[run]) for values in varied.values())
+        start = bs.ModalState(velocity=scale * velocity)
+        stop = bs.Stop("spring", node="B", normal=(0, 1, 0), stiffness=stiffness, gap=gap)
+        response = bs.simulate(replace(problem, laws=[stop], initial=start), method="exact")
+        expected = force.value(response)
+        assert found.largest[run] == pytest.approx(expected, rel=1e-13, abs=1e-10, nan_ok=True)
+
+
 def test_no_bit_depends_on_the_runs_beside() -> None:
     problem, varied = beam(), drawn()
 
@@ -93,10 +113,10 @@ def test_no_bit_depends_on_the_runs_beside() -> None:
 
 
 def test_what_lanes_do_not_read_is_read_from_single_runs() -> None:
-    peak = {"force": bs.Output(quantity="peak_force", stop="spring", statistic="maximum")}
+    kept = {"impulse": bs.Output(quantity="impulse", stop="spring", statistic="maximum")}
     varied = drawn(50)
-    single, lanes = (bs.batch(beam(), varied, peak, lanes=each) for each in (False, True))
-    assert np.array_equal(single.force, lanes.force, equal_nan=True)
+    single, lanes = (bs.batch(beam(), varied, kept, lanes=each) for each in (False, True))
+    assert np.array_equal(single.impulse, lanes.impulse, equal_nan=True)
 
 
 def test_a_failed_run_fails_alone() -> None:

@@ -19,11 +19,11 @@ import bumpstop as bs
 from bumpstop.cli import main
 from bumpstop.study import cluster
 from bumpstop.study.execution import Progress
-from tests.study.bouncing import CASE, STUDY, written
+from tests.study.bouncing import CASE, IN_PYTHON, written
 
 SLOW = CASE.replace("duration = 2.0", "duration = 2.0\nsample = 1e-5")
 """The energy ledger takes a few milliseconds."""
-LONG = STUDY.replace("count = 5", "count = 60").replace("chunk = 3", "chunk = 2")
+LONG = IN_PYTHON.replace("count = 5", "count = 60").replace("chunk = 3", "chunk = 2")
 """60 chunks of two runs."""
 GAP = "stops.spring.gap"
 

@@ -89,6 +89,18 @@ def test_the_pace_of_loads_is_their_frequency() -> None:
     assert np.all(lacks < 2.0 * left * np.abs(reply).max() + 1e-13)
 
 
+def test_a_diagram_of_both_ways() -> None:
+    loads = np.linspace(0.5, 1.5, 3)
+    found = bs.follow(oscillator(30), {"loads": loads}, KEPT)
+    up, down = bs.bifurcation_diagram(found, "speed").data
+    for trace, way in ((up, "up"), (down, "down")):
+        assert trace.x.tolist() == np.repeat(loads, LATEST).tolist()
+        known = found.speed.sel(way=way).values.ravel()
+        assert np.array_equal(np.isnan(trace.y), np.isnan(known))
+    with pytest.raises(bs.InputError, match="did you mean 'speed'"):
+        bs.bifurcation_diagram(found, "sped")
+
+
 def test_no_bit_depends_on_the_threads() -> None:
     problem, varied = oscillator(30), {"loads": np.linspace(0.5, 2.0, 5)}
     one, two = (bs.follow(problem, varied, KEPT, workers=workers) for workers in (1, 2))

@@ -11,7 +11,7 @@ import xarray as xr
 import bumpstop as bs
 from bumpstop.study import pool
 from bumpstop.study.evaluation import Evaluator, Recipe
-from tests.study.bouncing import CASE, STUDY, written
+from tests.study.bouncing import CASE, IN_PYTHON, STUDY, written
 
 SPEED, MASS = 3.0, 2.0
 GAP, STIFFNESS = "stops.spring.gap", "stops.spring.stiffness"
@@ -20,6 +20,12 @@ GAP, STIFFNESS = "stops.spring.gap", "stops.spring.stiffness"
 @pytest.fixture
 def bouncing(tmp_path: Path) -> bs.Study:
     return bs.load_study(written(tmp_path))
+
+
+@pytest.fixture
+def in_python(tmp_path: Path) -> bs.Study:
+    """The same, made by processes."""
+    return bs.load_study(written(tmp_path, IN_PYTHON))
 
 
 def files(store: Path) -> dict[str, bytes]:
@@ -57,7 +63,9 @@ def test_a_grid_against_closed_forms(bouncing: bs.Study) -> None:
     assert found.force.attrs == {"units": "N", "long_name": "largest force of spring"}
 
 
-def test_workers_chunks_and_stores_change_no_bit(bouncing: bs.Study, tmp_path: Path) -> None:
+@pytest.mark.parametrize("written_as", [STUDY, IN_PYTHON], ids=["core", "python"])
+def test_workers_chunks_and_stores_change_no_bit(written_as: str, tmp_path: Path) -> None:
+    bouncing = bs.load_study(written(tmp_path, written_as))
     alone = bouncing.run(workers=1)
     in_one = bs.Study(bouncing.case, bouncing.parameters, bouncing.outputs, chunk=100)
     assert in_one.run(workers=1).identical(alone)
@@ -227,9 +235,9 @@ def test_a_store_is_not_overwritten(bouncing: bs.Study, tmp_path: Path) -> None:
 
 
 def test_a_worker_that_dies_takes_no_run_with_it(
-    bouncing: bs.Study, monkeypatch: pytest.MonkeyPatch
+    in_python: bs.Study, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    expected = bouncing.run(workers=1)
+    expected = in_python.run(workers=1)
     victims: list[int] = []
 
     class Mortal(pool.Worker):
@@ -240,27 +248,27 @@ def test_a_worker_that_dies_takes_no_run_with_it(
                 self.process.kill()
 
     monkeypatch.setattr(pool, "Worker", Mortal)
-    assert bouncing.run(workers=2).identical(expected)
+    assert in_python.run(workers=2).identical(expected)
     assert victims
 
 
 def test_a_run_that_kills_its_process_has_failed(
-    bouncing: bs.Study, monkeypatch: pytest.MonkeyPatch
+    in_python: bs.Study, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(pool.Worker, "answer", lambda *_: None)
-    found = bouncing.run(workers=2)
+    found = in_python.run(workers=2)
     assert found.failed.all()
     assert "it was killed, or found no memory" in str(found.message.values[0, 0])
 
 
 def test_our_own_mistakes_stop_no_study(
-    bouncing: bs.Study, monkeypatch: pytest.MonkeyPatch
+    in_python: bs.Study, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(*_: object) -> None:
         raise ZeroDivisionError("oh")
 
     monkeypatch.setattr(Evaluator, "_values", broken)
-    found = bouncing.run(workers=1)
+    found = in_python.run(workers=1)
     assert set(found.message.values.ravel()) == {
         "this is a mistake in bumpstop itself: ZeroDivisionError: oh"
     }

@@ -69,17 +69,24 @@ impl Quantity {
         Ok(Self(core::Quantity::Energy { term, times }))
     }
 
+    /// An extreme value of a quantity of time, whose instants are samples.
+    #[staticmethod]
+    fn extreme(of: &Self, statistic: &str) -> PyResult<Self> {
+        if of.0.times().is_empty() {
+            return Err(PyValueError::new_err("no samples to look between"));
+        }
+        let (of, pick) = (Box::new(of.0.clone()), extreme(statistic)?);
+        Ok(Self(core::Quantity::Extreme { of, pick }))
+    }
+
     /// A number of one impact, counted from 0, or a statistic of those of all.
     #[staticmethod]
     #[pyo3(signature = (law, column, statistic=None, impact=0))]
     fn impacts(law: usize, column: &str, statistic: Option<&str>, impact: usize) -> PyResult<Self> {
         let pick = match statistic {
             None => Pick::Number(impact),
-            Some("maximum") => Pick::Largest,
-            Some("minimum") => Pick::Smallest,
-            Some("peak") => Pick::Peak,
             Some("last") => Pick::Last,
-            Some(other) => return Err(unknown("statistic", other)),
+            Some(other) => extreme(other)?,
         };
         let column = impact_column(column)?;
         Ok(Self(core::Quantity::Impacts { law, column, pick }))
@@ -90,6 +97,12 @@ impl Quantity {
     fn last_impacts(law: usize, column: &str, count: usize) -> PyResult<Self> {
         let column = impact_column(column)?;
         Ok(Self(core::Quantity::LastImpacts { law, column, count }))
+    }
+
+    /// The largest force of a law; NaN where it never pushes.
+    #[staticmethod]
+    fn largest_force(law: usize) -> Self {
+        Self(core::Quantity::LargestForce { law })
     }
 
     /// How many impacts there are on a law, or on all.
@@ -114,6 +127,15 @@ impl Quantity {
     }
 }
 
+fn extreme(statistic: &str) -> PyResult<Pick> {
+    Ok(match statistic {
+        "maximum" => Pick::Largest,
+        "minimum" => Pick::Smallest,
+        "peak" => Pick::Peak,
+        _ => return Err(unknown("statistic", statistic)),
+    })
+}
+
 fn impact_column(name: &str) -> PyResult<ImpactColumn> {
     Ok(match name {
         "start" => ImpactColumn::Start,
@@ -133,8 +155,8 @@ fn unknown(what: &str, name: &str) -> PyErr {
     PyValueError::new_err(format!("no {what} '{name}'"))
 }
 
-/// Makes many runs by the exact method, in chains perhaps; releases the GIL. Returns the numbers of each run, (run,
-/// number), and those runs that failed with their messages.
+/// Makes many runs by the exact method, in chains perhaps; releases the GIL. Returns the numbers of
+/// each run, (run, number), and those runs that failed with their messages.
 #[pyfunction]
 #[pyo3(signature = (system, laws, forcing, displacement, velocity, duration, quantities, runs,
                     stops, displacements=None, velocities=None, loads=None, pace=None, chain=1,

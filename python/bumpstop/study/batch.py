@@ -64,15 +64,15 @@ def batch(
         times as fast these change: the run, and all times at which something is kept, are then
         as much shorter, so that a harmonic load has as many periods.
     outputs
-        What to keep of each run, by a name of your own: quantities at given times or with the
-        statistic ``last``, numbers and statistics of impacts but for ``mean`` and ``rms``, and
-        numbers of the whole run.
+        What to keep of each run, by a name of your own: quantities at given times or with a
+        statistic, numbers and statistics of impacts, the ``largest_force``, and numbers of the
+        whole run; not ``mean``, ``rms`` and other contact statistics.
     lanes
         Make eight runs at a time in the vector registers where the problem has one stop without
         damper or friction, constant loads and lightly damped modes, and what is kept are
-        quantities at times, instants and speeds of impacts, or counts. Numbers then differ from
-        those of `simulate` by rounding, some 1e-15 of the largest; without lanes they are the
-        same to the bit, and take some three times as long.
+        quantities at times, instants, speeds and largest forces of impacts, or counts. Numbers
+        then differ from those of `simulate` by rounding, some 1e-15 of the largest; without lanes
+        they are the same to the bit, and take some three times as long.
     workers
         How many threads; as many as there are cores where left out. Results do not depend on it,
         to the last bit, nor on the order of the runs.

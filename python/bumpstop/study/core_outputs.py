@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bumpstop import _core
+from bumpstop.laws.stop import Stop
 from bumpstop.post.references import IMPACT_COLUMNS
 
 if TYPE_CHECKING:
-    from bumpstop.problem import Problem
+    from bumpstop.problem import Law, Problem
     from bumpstop.study.outputs import Output
 
 __all__ = ["core_quantities", "core_quantity"]
@@ -29,6 +30,7 @@ _ENERGIES = (
     "circulatory_work",
     "obstacle_work",
 )
+_EXTREMES = ("maximum", "minimum", "peak")
 _STATISTICS = (None, "maximum", "minimum", "peak", "last")
 """Of impacts; means are added up in numpy's order."""
 
@@ -57,6 +59,10 @@ def core_quantity(problem: Problem, output: Output) -> _core.Quantity | None:
         return _core.Quantity.of_run(what)
     if what == "impacts":
         return _core.Quantity.impact_count()
+    if what == "largest_force":
+        law = _law(problem, output)
+        # A rigid stop's force has no bound; only a stop's impacts hold all of its force.
+        return _core.Quantity.largest_force(law) if _is_plain(problem.laws[law]) else None
     if what in IMPACT_COLUMNS and output.statistic in _STATISTICS:
         number = (output.impact or 1) - 1
         law = _law(problem, output)
@@ -67,6 +73,9 @@ def core_quantity(problem: Problem, output: Output) -> _core.Quantity | None:
         times = np.clip(output.times, 0.0, problem.duration)
     elif output.statistic == "last":
         times = problem.times[-1:]
+    elif output.statistic in _EXTREMES and what != "energy":
+        samples = _over_time(problem, output, problem.times)
+        return samples and _core.Quantity.extreme(samples, output.statistic)
     else:
         return None
     return _over_time(problem, output, times)
@@ -88,6 +97,11 @@ def _over_time(problem: Problem, output: Output, times: np.ndarray) -> _core.Qua
         gauge = next(gauge for gauge in problem.gauges if gauge.name == output.gauge)
         return _core.Quantity.motion(problem.basis.gauge_row(gauge), 0, times)
     return None
+
+
+def _is_plain(law: Law) -> bool:
+    """Tell whether a law is a stop without friction."""
+    return isinstance(law, Stop) and law.friction is None
 
 
 def _law(problem: Problem, output: Output) -> int:

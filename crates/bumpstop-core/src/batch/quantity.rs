@@ -34,6 +34,14 @@ pub enum Quantity {
         /// Instants, in s.
         times: Vec<f64>,
     },
+    /// An extreme value over the run of one of the three above, whose instants are samples: it is
+    /// looked for between those next to the most extreme one.
+    Extreme {
+        /// What it is of.
+        of: Box<Self>,
+        /// Which: the largest, the smallest or the largest magnitude.
+        pick: Pick,
+    },
     /// A number of the impacts of a law; NaN where there is no such impact.
     Impacts {
         /// The law, by number.
@@ -52,6 +60,11 @@ pub enum Quantity {
         column: ImpactColumn,
         /// Of how many.
         count: usize,
+    },
+    /// The largest force of a law, which its impacts have; NaN where it never pushes.
+    LargestForce {
+        /// The law, by number.
+        law: usize,
     },
     /// How many impacts there are: on one law, or on all.
     ImpactCount {
@@ -141,7 +154,21 @@ impl Quantity {
                 times.len()
             }
             Self::LastImpacts { count, .. } => *count,
-            Self::Impacts { .. } | Self::ImpactCount { .. } | Self::OfRun(_) => 1,
+            Self::Extreme { .. }
+            | Self::Impacts { .. }
+            | Self::LargestForce { .. }
+            | Self::ImpactCount { .. }
+            | Self::OfRun(_) => 1,
+        }
+    }
+
+    /// The instants of a quantity of time; none of another.
+    pub fn times(&self) -> &[f64] {
+        match self {
+            Self::Motion { times, .. } | Self::Law { times, .. } | Self::Energy { times, .. } => {
+                times
+            }
+            _ => &[],
         }
     }
 
@@ -156,12 +183,20 @@ impl Quantity {
                 check_times(times, problem.duration)
             }
             Self::Energy { times, .. } => check_times(times, problem.duration),
+            Self::Extreme { of, .. } => of.check(problem),
             Self::Impacts { law, .. }
             | Self::LastImpacts { law, .. }
+            | Self::LargestForce { law }
             | Self::ImpactCount { law: Some(law) } => check_law(*law, problem),
             Self::ImpactCount { law: None } | Self::OfRun(_) => Ok(()),
         }
     }
+}
+
+/// The largest force of all impacts; NaN where none pushes.
+pub(super) fn largest_force(impacts: &[Impact]) -> f64 {
+    let forces = impacts.iter().map(|impact| impact.peak_force);
+    Pick::Largest.of(forces.filter(|force| *force > 0.0))
 }
 
 fn check_law(law: usize, problem: &Problem<AnyLaw>) -> Result<()> {
@@ -188,6 +223,11 @@ impl ImpactColumn {
         )
     }
 
+    /// Whether it is of the largest force.
+    pub(super) fn is_of_peak(self) -> bool {
+        matches!(self, Self::PeakForce | Self::PeakTime)
+    }
+
     /// The number of one impact.
     pub(super) fn of(self, impact: &Impact) -> f64 {
         match self {
@@ -206,6 +246,15 @@ impl ImpactColumn {
 }
 
 impl Pick {
+    /// A value as what is largest where the one that is asked for is.
+    pub(super) fn raised(self, value: f64) -> f64 {
+        match self {
+            Self::Smallest => -value,
+            Self::Peak => value.abs(),
+            Self::Largest | Self::Number(_) | Self::Last => value,
+        }
+    }
+
     /// The one of many; NaN where there is none.
     pub(super) fn of(self, mut values: impl Iterator<Item = f64>) -> f64 {
         if let Self::Number(number) = self {

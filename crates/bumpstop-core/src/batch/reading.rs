@@ -1,12 +1,16 @@
 //! Reading what is kept of one run.
 
-use super::quantity::{EnergyTerm, ImpactColumn, LawMotion, OfRun, Quantity};
+use super::quantity::{EnergyTerm, ImpactColumn, LawMotion, OfRun, Pick, Quantity, largest_force};
 use crate::energy::Ledger;
 use crate::error::Result;
 use crate::history::History;
 use crate::impacts::Impact;
 use crate::law::AnyLaw;
 use std::borrow::Cow;
+
+/// How much closer each look at an extreme value goes, and how many looks there are.
+const CLOSER: usize = 16;
+const LOOKS: usize = 5;
 
 /// A run that is read. What several quantities ask for is found once.
 pub(super) struct Reading<'a> {
@@ -32,29 +36,12 @@ impl<'a> Reading<'a> {
     /// Writes the numbers of one quantity.
     pub(super) fn read(&mut self, quantity: &Quantity, to: &mut [f64]) -> Result<()> {
         match quantity {
-            Quantity::Motion {
-                row,
-                derivative,
-                times,
-            } => {
-                let times = self.turned_to(times);
-                to.copy_from_slice(&self.history.project(row, &times, *derivative)?);
+            Quantity::Motion { times, .. }
+            | Quantity::Law { times, .. }
+            | Quantity::Energy { times, .. } => {
+                to.copy_from_slice(&self.over_time(quantity, &self.turned_to(times))?);
             }
-            Quantity::Law { law, motion, times } => {
-                let times = self.turned_to(times);
-                let [distance, rate, force] = self.history.law_motion(*law, &times)?;
-                to.copy_from_slice(match motion {
-                    LawMotion::Distance => &distance,
-                    LawMotion::Rate => &rate,
-                    LawMotion::Force => &force,
-                });
-            }
-            Quantity::Energy { term, times } => {
-                let times = self.turned_to(times);
-                for (to, ledger) in to.iter_mut().zip(self.history.energy(&times)?) {
-                    *to = term.of(&ledger);
-                }
-            }
+            Quantity::Extreme { of, pick } => to[0] = self.extreme(of, *pick)?,
             Quantity::Impacts { law, column, pick } => {
                 let impacts = self.impacts(*law, *column).iter();
                 to[0] = pick.of(impacts.map(|impact| column.of(impact)));
@@ -68,10 +55,60 @@ impl<'a> Reading<'a> {
                     *to = column.of(impact);
                 }
             }
+            Quantity::LargestForce { law } => {
+                to[0] = largest_force(self.impacts(*law, ImpactColumn::PeakForce));
+            }
             Quantity::ImpactCount { law } => to[0] = self.count(*law) as f64,
             Quantity::OfRun(number) => to[0] = number.of(self.history),
         }
         Ok(())
+    }
+
+    /// A quantity of time at some instants of the run.
+    fn over_time(&self, quantity: &Quantity, times: &[f64]) -> Result<Vec<f64>> {
+        match quantity {
+            Quantity::Motion {
+                row, derivative, ..
+            } => self.history.project(row, times, *derivative),
+            Quantity::Law { law, motion, .. } => {
+                let [distance, rate, force] = self.history.law_motion(*law, times)?;
+                Ok(match motion {
+                    LawMotion::Distance => distance,
+                    LawMotion::Rate => rate,
+                    LawMotion::Force => force,
+                })
+            }
+            Quantity::Energy { term, .. } => {
+                let ledgers = self.history.energy(times)?;
+                Ok(ledgers.iter().map(|ledger| term.of(ledger)).collect())
+            }
+            _ => unreachable!("of one of the three"),
+        }
+    }
+
+    /// An extreme value of a quantity of time, found ever closer about the most extreme sample.
+    fn extreme(&self, of: &Quantity, pick: Pick) -> Result<f64> {
+        let samples = of.times();
+        let mut times = self.turned_to(samples).into_owned();
+        let mut largest = f64::NEG_INFINITY;
+        for _ in 0..=LOOKS {
+            let values = self.over_time(of, &times)?;
+            let mut best = 0;
+            for (number, value) in values.iter().enumerate() {
+                if pick.raised(*value) > pick.raised(values[best]) {
+                    best = number;
+                }
+            }
+            largest = largest.max(pick.raised(values[best]));
+            let low = times[best.saturating_sub(1)];
+            let high = times[(best + 1).min(times.len() - 1)];
+            times = grid(low, high);
+        }
+        Ok(if pick == Pick::Smallest {
+            -largest
+        } else {
+            largest
+        })
     }
 
     /// How many impacts there are on one law, or on all.
@@ -101,6 +138,14 @@ impl<'a> Reading<'a> {
         let turned = |time: &f64| (time / self.pace).min(duration);
         Cow::Owned(times.iter().map(turned).collect())
     }
+}
+
+/// Equally spread instants, both ends among them.
+fn grid(low: f64, high: f64) -> Vec<f64> {
+    let step = (high - low) / (2 * CLOSER) as f64;
+    let mut times: Vec<f64> = (0..2 * CLOSER).map(|n| low + n as f64 * step).collect();
+    times.push(high);
+    times
 }
 
 impl EnergyTerm {

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -34,6 +35,7 @@ __all__ = [
     "histogram_figure",
     "over_time_figure",
     "scatter_figure",
+    "two_ways_figure",
 ]
 
 MOST_MARKS = 5000
@@ -41,6 +43,21 @@ MOST_MARKS = 5000
 SMALL = (200, 320)
 """Rows and columns of a picture of which a page has many."""
 QUANTILES = (0.05, 0.5, 0.95)
+SHADES = (
+    (LIGHT["kinetic"], LIGHT["computed"], "#001a33"),
+    (LIGHT["stored"], LIGHT["contact"], "#331500"),
+)
+"""Colours of few points, more and many in a pixel; of each cloud. Marks have the second."""
+
+
+class Cloud(NamedTuple):
+    """Points that belong together."""
+
+    x: FloatArray
+    y: FloatArray
+    name: str = ""
+    runs: NDArray[np.int64] | None = None
+    """Numbers of the runs that they are of."""
 
 
 def bifurcation_diagram(points: pd.DataFrame | xr.Dataset, output: str = "value") -> go.Figure:
@@ -52,8 +69,9 @@ def bifurcation_diagram(points: pd.DataFrame | xr.Dataset, output: str = "value"
     Parameters
     ----------
     points
-        As `bifurcation` gives them, or the results of a study of one parameter with an output
-        at many times, such as once a period.
+        As `bifurcation` gives them; as `follow` does, whose ways up and down get colours of
+        their own, over the first of the parameters; or the results of a study of one parameter
+        with an output at many times, such as once a period.
     output
         The column of the values; the name of the output of a study.
 
@@ -63,40 +81,36 @@ def bifurcation_diagram(points: pd.DataFrame | xr.Dataset, output: str = "value"
         If there is no such column or output, or more than one parameter.
     """
     if hasattr(points, "data_vars"):
-        return as_plotly(over_time_figure(cast("xr.Dataset", points), output))
+        results = cast("xr.Dataset", points)
+        draw = two_ways_figure if "way" in results.dims else over_time_figure
+        return as_plotly(draw(results, output))
     if output not in points.columns:
         raise InputError("no such column", key="output", value=output)
     name = str(points.columns[0])
     units = points.attrs.get("units", {}).get(name, "1")
     x, y = (np.asarray(points[column], dtype=float) for column in (name, output))
-    return as_plotly(bifurcation_figure((name, units), x, y, Axis(output, Scale(1.0, "1"))))
+    return as_plotly(
+        bifurcation_figure((name, units), [Cloud(x, y)], Axis(output, Scale(1.0, "1")))
+    )
 
 
-def bifurcation_figure(
-    parameter: tuple[str, str],
-    x: FloatArray,
-    y: FloatArray,
-    axis: Axis,
-    runs: NDArray[np.int64] | None = None,
-) -> Figure:
-    """Draw points over a parameter; ``runs`` are the numbers of the runs that they are of."""
+def bifurcation_figure(parameter: tuple[str, str], clouds: Sequence[Cloud], axis: Axis) -> Figure:
+    """Draw points over a parameter, each cloud in colours of its own."""
     name, units = parameter
     across = Axis(name, Scale(1.0, units))
+    count = sum(len(cloud.x) for cloud in clouds)
+    draw = _marks if count <= MOST_MARKS else _picture
     hover = f"{name} = %{{x:.5~g}}<br>%{{y:.5~g}} {axis.scale.unit}"
-    if runs is not None:
-        hover += "<br>run %{customdata}"
-    trace: dict[str, Any]
-    if len(x) <= MOST_MARKS:
-        trace = {"type": "scatter", "mode": "markers", "x": x, "y": axis.scaled(y)}
-        trace |= {"marker": {"size": 3, "color": LIGHT["computed"]}}
-        if runs is not None:
-            trace["customdata"] = runs
-    else:
-        trace = _picture(x, axis.scaled(y), runs)
-    trace["hovertemplate"] = f"{hover}<extra></extra>"
-    layout = layout_of(f"{axis.name} over {name}", across, axis, f"{len(x):,} points")
-    layout |= {"hovermode": "closest", "showlegend": False}
-    return {"data": [trace], "layout": layout}
+    traces = []
+    for cloud, shades in zip(clouds, SHADES, strict=False):
+        trace = draw(cloud._replace(y=axis.scaled(cloud.y)), shades)
+        told = hover if cloud.runs is None else f"{hover}<br>run %{{customdata}}"
+        trace |= {"hovertemplate": f"{told}<extra>{cloud.name}</extra>", "name": cloud.name}
+        traces.append(trace | {"showlegend": len(clouds) > 1})
+    there = sum(int(np.isfinite(cloud.y).sum()) for cloud in clouds)
+    layout = layout_of(f"{axis.name} over {name}", across, axis, f"{there:,} points")
+    layout |= {"hovermode": "closest", "showlegend": len(clouds) > 1}
+    return {"data": traces, "layout": layout}
 
 
 def over_time_figure(results: xr.Dataset, output: str) -> Figure:
@@ -106,12 +120,27 @@ def over_time_figure(results: xr.Dataset, output: str) -> Figure:
     if array.ndim != 2 or len(names) != 1 or array[names[0]].dtype.kind not in "iuf":
         what = "must be numbers at several times over one parameter"
         raise InputError(what, key="output", value=output)
-    times = array.shape[1]
-    levels = np.asarray(array[names[0]].values, dtype=float)
-    runs = np.repeat(run_numbers(results).values, times)
-    axis = output_axis(array)
-    values = array.values.ravel()
-    return bifurcation_figure((names[0], "1"), np.repeat(levels, times), values, axis, runs)
+    runs = run_numbers(results).values
+    cloud = _cloud(array[names[0]], array)._replace(runs=np.repeat(runs, array.shape[1]))
+    return bifurcation_figure((names[0], "1"), [cloud], output_axis(array))
+
+
+def two_ways_figure(results: xr.Dataset, output: str) -> Figure:
+    """Draw an output of runs that follow one another up and down a parameter."""
+    array = required(results, output)
+    if array.dtype.kind not in "iuf":
+        raise InputError("must be numbers", key="output", value=output)
+    name, levels = next(
+        (key, each) for key, each in results.coords.items() if each.dims == ("run",)
+    )
+    clouds = [_cloud(levels, ways)._replace(name=str(ways.way.values)) for ways in array]
+    return bifurcation_figure((str(name), "1"), clouds, output_axis(array))
+
+
+def _cloud(levels: xr.DataArray, values: xr.DataArray) -> Cloud:
+    """Return all numbers of each run over its level."""
+    each = values.size // levels.size
+    return Cloud(np.repeat(np.asarray(levels.values, dtype=float), each), values.values.ravel())
 
 
 def scatter_figure(results: xr.Dataset, output: str, parameter: str) -> Figure:
@@ -123,7 +152,8 @@ def scatter_figure(results: xr.Dataset, output: str, parameter: str) -> Figure:
     hover = f"{parameter} = %{{x:.5~g}}<br>%{{y:.5~g}} {axis.scale.unit}<br>run %{{customdata}}"
     if numbers and len(levels) > MOST_MARKS:
         runs = run_numbers(results).values
-        trace = _picture(levels.astype(float), axis.scaled(array.values), runs, SMALL)
+        cloud = Cloud(levels.astype(float), axis.scaled(array.values), runs=runs)
+        trace = _picture(cloud, SHADES[0], SMALL)
     else:
         chosen = slice(None, None, -(-len(levels) // MOST_MARKS))
         trace = {
@@ -168,14 +198,23 @@ def histogram_figure(results: xr.Dataset, output: str) -> Figure:
     return {"data": [trace], "layout": layout}
 
 
+def _marks(cloud: Cloud, shades: Sequence[str]) -> dict[str, Any]:
+    """Return points one by one."""
+    trace = {
+        "type": "scatter",
+        "mode": "markers",
+        "x": cloud.x,
+        "y": cloud.y,
+        "marker": {"size": 3, "color": shades[1]},
+    }
+    return trace if cloud.runs is None else trace | {"customdata": cloud.runs}
+
+
 def _picture(
-    x: FloatArray,
-    y: FloatArray,
-    runs: NDArray[np.int64] | None,
-    size: tuple[int, int] = (ROWS, COLUMNS),
+    cloud: Cloud, shades: Sequence[str], size: tuple[int, int] = (ROWS, COLUMNS)
 ) -> dict[str, Any]:
     """Return points as a map of the logarithm of how many lie in each pixel."""
-    raster = rastered(x, y, *size)
+    raster = rastered(cloud.x, cloud.y, *size)
     with np.errstate(divide="ignore"):
         shade = np.where(raster.counts > 0, np.log10(raster.counts), np.nan)
     trace: dict[str, Any] = {
@@ -183,12 +222,12 @@ def _picture(
         "x": raster.x,
         "y": raster.y,
         "z": shade,
-        "colorscale": [[0.0, LIGHT["kinetic"]], [0.5, LIGHT["computed"]], [1.0, "#001a33"]],
+        "colorscale": [[0.5 * place, colour] for place, colour in enumerate(shades)],
         "showscale": False,
         "hoverongaps": False,
     }
-    if runs is not None:
-        trace["customdata"] = np.where(raster.some >= 0, runs[raster.some], -1)
+    if cloud.runs is not None:
+        trace["customdata"] = np.where(raster.some >= 0, cloud.runs[raster.some], -1)
     return trace
 
 

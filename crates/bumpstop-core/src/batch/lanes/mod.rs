@@ -11,6 +11,7 @@ mod guard;
 mod mask;
 mod motion;
 mod outputs;
+mod peaks;
 mod plan;
 mod run;
 mod shape;

@@ -3,10 +3,12 @@
 use super::guard::{Guard, three};
 use super::mask::{blend, chosen};
 use super::motion::Motion;
+use super::peaks::Peaks;
 use super::plan::{Item, OfImpacts, Plan};
 use super::run::Eight;
 use super::shape::Shape;
 use super::walk::Ends;
+use crate::batch::quantity::largest_force;
 use crate::impacts::Impact;
 use crate::method::piecewise_linear::ComplexBlock;
 use crate::number::{Block, Complex, Instructions, LANES, Lanes, Number};
@@ -44,6 +46,7 @@ pub(super) struct Outputs {
     next: usize,
     impacts: [Vec<Impact>; LANES],
     events: [u32; LANES],
+    peaks: Peaks,
 }
 
 impl Outputs {
@@ -57,6 +60,7 @@ impl Outputs {
             kept: vec![[0.0; LANES]; plan.width],
             signals: vec![signal; plan.rows.len()],
             exponentials: vec![ComplexBlock::ZERO; modes],
+            peaks: Peaks::new(modes),
             ..Self::default()
         }
     }
@@ -69,12 +73,15 @@ impl Outputs {
         for impacts in &mut self.impacts {
             impacts.clear();
         }
+        if plan.needs_peaks {
+            self.peaks.turn_to::<I>(&motion.contact_guard.lambda);
+        }
         for (signal, row) in self.signals.iter_mut().zip(&plan.rows) {
             signal.start::<I>(shape, row, motion);
         }
     }
 
-    /// Reads what lies in a phase that has ended.
+    /// Reads what lies in a phase that has ended; returns the lanes in which that does not succeed.
     #[inline(always)]
     pub(super) fn read<I: Instructions>(
         &mut self,
@@ -83,10 +90,27 @@ impl Outputs {
         plan: &Plan,
         eight: &Eight,
         span: Span<'_, I>,
-    ) {
+    ) -> u8 {
         if !plan.of_impacts.is_empty() {
             self.see_impacts(motion, shape, span);
         }
+        self.sample(motion, shape, plan, eight, span);
+        if plan.needs_peaks && span.is_closed {
+            return self.see_peaks(motion, eight, span);
+        }
+        0
+    }
+
+    /// Reads the samples in a phase.
+    #[inline(always)]
+    fn sample<I: Instructions>(
+        &mut self,
+        motion: &Motion,
+        shape: &Shape,
+        plan: &Plan,
+        eight: &Eight,
+        span: Span<'_, I>,
+    ) {
         let end = span.start + Lanes::of_block(&span.ends.time);
         let goes_on = span.live & span.ends.found;
         let mut is_set = false;
@@ -194,6 +218,29 @@ impl Outputs {
         }
     }
 
+    /// Takes note of the largest forces of contacts; returns the lanes that are given up.
+    #[inline(always)]
+    fn see_peaks<I: Instructions>(
+        &mut self,
+        motion: &Motion,
+        eight: &Eight,
+        span: Span<'_, I>,
+    ) -> u8 {
+        let end = Lanes::of_block(&span.ends.time);
+        let failed = (self.peaks).find::<I>(motion.guard(true), end, span.live);
+        let start = span.start.numbers();
+        for lane in 0..LANES {
+            let Some(impact) = self.impacts[lane].last_mut() else {
+                continue;
+            };
+            if span.live >> lane & 1 == 1 {
+                let force = self.peaks.depth[lane] * eight.stiffness[lane];
+                impact.see_force(start[lane] + self.peaks.time[lane], force);
+            }
+        }
+        failed
+    }
+
     /// Reads what is known at the end.
     pub(super) fn finish(&mut self, plan: &Plan) {
         for (what, column) in &plan.of_impacts {
@@ -204,6 +251,7 @@ impl Outputs {
                         pick.of(impacts.iter().map(|impact| column.of(impact)))
                     }
                     OfImpacts::Count => impacts.len() as f64,
+                    OfImpacts::LargestForce => largest_force(impacts),
                     OfImpacts::Events => f64::from(self.events[lane]),
                 };
             }

@@ -30,6 +30,8 @@ pub(super) enum OfImpacts {
     Count,
     /// How often the stop switched.
     Events,
+    /// The largest force.
+    LargestForce,
 }
 
 /// All that is read.
@@ -41,6 +43,8 @@ pub(super) struct Plan {
     pub rows: Vec<Vec<f64>>,
     /// In order of time.
     pub samples: Vec<Sample>,
+    /// Whether the peaks of impacts are looked for.
+    pub needs_peaks: bool,
     /// Each with the number of its result.
     pub of_impacts: Vec<(OfImpacts, usize)>,
 }
@@ -76,12 +80,20 @@ impl Plan {
                 };
                 self.sample(item, times);
             }
-            Quantity::Impacts { column, pick, .. } if column.is_of_ends() => {
+            Quantity::Impacts { column, pick, .. }
+                if column.is_of_ends() || column.is_of_peak() =>
+            {
+                self.needs_peaks |= column.is_of_peak();
                 self.count(OfImpacts::Number(*column, *pick));
+            }
+            Quantity::LargestForce { .. } => {
+                self.needs_peaks = true;
+                self.count(OfImpacts::LargestForce);
             }
             Quantity::ImpactCount { .. } => self.count(OfImpacts::Count),
             Quantity::OfRun(OfRun::Events) => self.count(OfImpacts::Events),
-            Quantity::Impacts { .. }
+            Quantity::Extreme { .. }
+            | Quantity::Impacts { .. }
             | Quantity::LastImpacts { .. }
             | Quantity::OfRun(_)
             | Quantity::Energy { .. } => return None,

@@ -86,8 +86,9 @@ impl Runner {
                 ends: &ends,
                 live,
             };
-            outputs.read::<I>(motion, shape, plan, eight, span);
-            live &= ends.found;
+            let lost = outputs.read::<I>(motion, shape, plan, eight, span);
+            failed |= lost;
+            live &= ends.found & !lost;
             if live == 0 {
                 break;
             }

@@ -93,6 +93,9 @@ fn quantities(problem: &Problem<AnyLaw>) -> Vec<Quantity> {
         impact(ImpactColumn::Duration, Pick::Largest),
         impact(ImpactColumn::ClosingSpeed, Pick::Largest),
         impact(ImpactColumn::OpeningSpeed, Pick::Smallest),
+        impact(ImpactColumn::PeakForce, Pick::Number(0)),
+        impact(ImpactColumn::PeakTime, Pick::Number(0)),
+        Quantity::LargestForce { law: 0 },
         Quantity::ImpactCount { law: None },
         Quantity::OfRun(OfRun::Events),
     ]
