@@ -7,6 +7,7 @@ each step, so that the compiler puts them into the vector registers.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numba
 import numpy as np
@@ -53,10 +54,12 @@ def _loop(
                 kept += 1
 
 
-@numba.njit(inline="always")  # type: ignore[untyped-decorator]
-def _each(x: Array, n: int) -> tuple[float, ...]:
-    """Return eight consecutive numbers."""
+def _consecutive(x: Array, n: int) -> tuple[float, ...]:
+    """Return eight numbers."""
     return x[n], x[n + 1], x[n + 2], x[n + 3], x[n + 4], x[n + 5], x[n + 6], x[n + 7]
+
+
+_each: Any = numba.njit(inline="always")(_consecutive)
 
 
 def _eight(

@@ -228,14 +228,14 @@ impl Outputs {
     ) -> u8 {
         let end = Lanes::of_block(&span.ends.time);
         let failed = (self.peaks).find::<I>(motion.guard(true), end, span.live);
-        let start = span.start.numbers();
-        for lane in 0..LANES {
-            let Some(impact) = self.impacts[lane].last_mut() else {
-                continue;
-            };
-            if span.live >> lane & 1 == 1 {
-                let force = self.peaks.depth[lane] * eight.stiffness[lane];
-                impact.see_force(start[lane] + self.peaks.time[lane], force);
+        let forces = Lanes::of_block(&self.peaks.depth) * Lanes::<I>::of_block(&eight.stiffness);
+        let times = span.start + Lanes::of_block(&self.peaks.time);
+        let peaks = times.numbers().into_iter().zip(forces.numbers());
+        for ((lane, impacts), (time, force)) in self.impacts.iter_mut().enumerate().zip(peaks) {
+            if span.live >> lane & 1 == 1
+                && let Some(impact) = impacts.last_mut()
+            {
+                impact.see_force(time, force);
             }
         }
         failed
