@@ -84,7 +84,7 @@ def test_failures_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     [
         ("stops.spring.stiffness", "stops.spring.stifness", "did you mean 'stiffness'?"),
         ('"stops.spring.gap"', "stops.spring.gap", "a dotted name goes in quotes"),
-        ('[0.25, "50 cm"]', "[]", 'parameters."stops.spring.gap".values: must be a list'),
+        ('[0.25, "50 cm"]', "[]", 'gap".values: must be a list of one value or more (got [])'),
         ('[0.25, "50 cm"]', '["50 N"]', "wrong unit: 'N' is a force, expected a length"),
         ("count = 5", "count = 1000000000000", "at most 20,000,000"),
         ("count = 5", "cuont = 5", "did you mean 'count'?"),

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from bumpstop.cli import progress
+from bumpstop.study.execution import Progress
 
 SDNL32 = Path(__file__).parents[2] / "cases" / "sdnl32" / "case.toml"
 GREEN = "\x1b[32m"
@@ -78,3 +79,20 @@ def test_a_bar_for_a_run_that_takes_long(
         tell(0.4)
         tell(0.6)
     assert "a run" in capsys.readouterr().err
+
+
+def test_a_bar_for_a_study(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setenv("COLUMNS", "120")
+    monkeypatch.setattr(progress, "monotonic", iter([0.0, 2.0, 4.0]).__next__)
+    with progress.runs_display("a study") as tell:
+        assert tell is not None
+        tell(Progress(done=30, runs=100, made=20, failed=0))
+        tell(Progress(done=70, runs=100, made=60, failed=2))
+    shown = capsys.readouterr().err
+    assert "a study" in shown
+    assert "70/100" in shown
+    assert "15 a second, 2 failed" in shown
+    assert re.search(r"\d:\d\d:\d\d", shown)  # time left

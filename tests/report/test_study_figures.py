@@ -141,6 +141,8 @@ def test_few_points_are_drawn_one_by_one() -> None:
     assert figure.data[0].mode == "markers"
     with pytest.raises(bs.InputError, match="no such column"):
         bs.bifurcation_diagram(points, "speed")
+    with pytest.raises(bs.InputError, match="points: must be a table or a Dataset"):
+        bs.bifurcation_diagram([1.0])
 
 
 def test_a_study_at_many_times_is_a_diagram(grid: tuple[bs.Study, xr.Dataset]) -> None:

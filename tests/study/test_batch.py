@@ -209,6 +209,16 @@ def test_bad_parameters_are_named(varied: dict[str, list[float]], what: str) -> 
         bs.batch(ball(), varied, KEPT)
 
 
+def test_what_no_memory_holds_is_said() -> None:
+    endless = np.broadcast_to(1e3, 10**14)
+    with pytest.raises(bs.InputError, match="gap: has more values than the memory holds"):
+        bs.batch(ball(), {"stops.wall.gap": endless}, KEPT)
+    times = np.linspace(0.0, 1.0, 10**6).tolist()
+    places = {"place": bs.Output(quantity="displacement", node="P", dof="dx", times=times)}
+    with pytest.raises(bs.InputError, match="1,000,000 numbers of 10,000,000 runs each are more"):
+        bs.batch(ball(), {"stops.wall.gap": np.full(10**7, 0.1)}, places)
+
+
 def test_outputs_that_the_core_cannot_read_are_named() -> None:
     mean = bs.Output(quantity="displacement", node="P", dof="dx", statistic="mean")
     with pytest.raises(bs.InputError, match="not read by the core"):

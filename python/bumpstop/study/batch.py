@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -27,6 +28,8 @@ __all__ = ["batch"]
 
 FACTORS = ("initial.displacement", "initial.velocity", "loads", "loads.pace")
 """What may be given as factors of what the problem has."""
+
+_IN_PARTS = "make the runs in several batches, or a study with a store"
 
 
 class Made(NamedTuple):
@@ -129,6 +132,7 @@ def made(
     check_method("exact", problem)
     runs = len(next(iter(columns.values())))
     quantities = _quantities(problem, outputs)
+    _check_room(runs, outputs)
     if (blamed := too_stiff(problem)) is not None:
         raise blamed
     model = canonical_form(problem)
@@ -179,6 +183,9 @@ def as_columns(parameters: Mapping[str, ArrayLike]) -> dict[str, FloatArray]:
             values = np.ascontiguousarray(given, dtype=np.float64)
         except (TypeError, ValueError) as error:
             raise InputError("must be numbers", key=f"parameters.{key}") from error
+        except MemoryError as error:
+            what = "has more values than the memory holds"
+            raise InputError(what, key=f"parameters.{key}", hint=_IN_PARTS) from error
         if values.ndim != 1 or not len(values):
             what = "must be an array of one value a run"
             raise InputError(what, key=f"parameters.{key}", value=f"shape {values.shape}")
@@ -201,6 +208,16 @@ def _stop_number(key: str, stops: list[str]) -> tuple[str, str]:
     if table != "stops" or stop not in stops or number not in STOP_NUMBERS:
         one_of("parameters", key, [*known, *FACTORS])
     return stop, number
+
+
+def _check_room(runs: int, outputs: Mapping[str, Output]) -> None:
+    """Raise where the memory does not hold what is kept."""
+    width = sum(math.prod(output.shape) for output in outputs.values())
+    try:
+        np.empty((runs, width))
+    except (MemoryError, ValueError) as error:
+        what = f"{width:,} numbers of {runs:,} runs each are more than the memory holds"
+        raise InputError(what, key="outputs", hint=_IN_PARTS) from error
 
 
 def _quantities(problem: Problem, outputs: Mapping[str, Output]) -> dict[str, _core.Quantity]:

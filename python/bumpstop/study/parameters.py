@@ -88,7 +88,7 @@ class Values:
     def __post_init__(self) -> None:
         given = self.values
         if isinstance(given, str) or not isinstance(given, Sequence) or not given:
-            raise InputError("must be a list of values", key="values", value=given)
+            raise InputError("must be a list of one value or more", key="values", value=given)
         given = [_plain(value) for value in given]
         for number, value in enumerate(given):
             if not isinstance(value, int | float | str):

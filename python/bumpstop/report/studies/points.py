@@ -84,6 +84,9 @@ def bifurcation_diagram(points: pd.DataFrame | xr.Dataset, output: str = "value"
         results = cast("xr.Dataset", points)
         draw = two_ways_figure if "way" in results.dims else over_time_figure
         return as_plotly(draw(results, output))
+    if not hasattr(points, "columns"):
+        hint = "take what bs.bifurcation, bs.follow or a study returns"
+        raise InputError("must be a table or a Dataset", key="points", value=points, hint=hint)
     if output not in points.columns:
         raise InputError("no such column", key="output", value=output)
     name = str(points.columns[0])
