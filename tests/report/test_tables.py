@@ -217,3 +217,10 @@ def test_methods_are_named_with_their_reason(soft: bs.Response) -> None:
 )
 def test_titles(target: tuple[str | int, ...], title: str) -> None:
     assert title_of(target) == title
+
+
+def test_a_force_of_nothing_is_told_so() -> None:
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    loads = [bs.NodalForce("off", node="P"), bs.NodalForce("on", node="P", force=(2.0, 0, 0))]
+    told = dict(model_rows(bs.Problem(basis, loads=loads, duration=1.0)))
+    assert told["Loads"] == ["off: nothing at P", "on: (2, 0, 0) N at P"]

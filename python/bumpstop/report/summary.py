@@ -353,7 +353,8 @@ def _load(load: Load) -> str:
     if isinstance(load, NodalForce):
         force = _vector(load.force, "N") if any(load.force) else ""
         moment = _vector(load.moment, "N m") if any(load.moment) else ""
-        what = f"{' and '.join(filter(None, [force, moment]))} at {load.node}"
+        told = " and ".join(filter(None, [force, moment])) or "nothing"
+        what = f"{told} at {load.node}"
         return f"{load.name}: {what}{_times(load.functions)}"
     if isinstance(load, BaseMotion):
         functions = load.functions if load.displacement is None else time_functions(load.time)
