@@ -4,10 +4,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import bumpstop as bs
 
 from .one_mass import one_mass, runge_kutta
+from .stretches import Change, Stretch, in_stretches
 
 
 def stop(**changes: Any) -> bs.BucklingStop:
@@ -105,6 +107,74 @@ def test_bouncing_between_two_agrees_with_tiny_steps(changes: dict[str, Any], me
     assert np.abs(x - states[::100, 0]).max() < 3e-3
     assert memory["largest"] > start
     assert response.energy_residual < (1e-12 if response.method == "exact" else 1e-7)
+    assert len(response.event_table()["time"]) >= 4
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"fall": 0.8},
+        {"fall": 0.5, "plateau": 0.3},
+        {"unloading_stiffness": [(0.2, 0.8), (1.0, 1.6), (3.0, 2.0)]},
+        {"fall": 0.4, "unloading_stiffness": [(0.0, 0.9), (0.7, 1.4)]},
+    ],
+)
+def test_force_and_motion_are_those_of_scipy(changes: dict[str, Any]) -> None:
+    """Each stage by SciPy at 1e-12, from event to event; residual crushings by a root finder."""
+    law = stop(**changes)
+    problem = one_mass(law, place=-1.0, speed=2.2, frequency=0.15, duration=9.0)
+    omega, points = 2 * np.pi * 0.15, np.array(law.unloading)
+    start = law.critical_force / law.stiffness
+    ends = [start, start + law.plateau, start + law.plateau + law.fall]
+
+    def residual(largest: float) -> float:
+        def excess(p: float) -> float:
+            return float(p + law.post_force / np.interp(p, *points.T) - largest)
+
+        return 0.0 if excess(0.0) >= 0.0 else float(brentq(excess, 0.0, largest, xtol=1e-15))
+
+    def stretch(force: Any, *changes: Change) -> Stretch:
+        return Stretch(lambda _, y: [y[1], -(omega**2) * y[0] - force(y[0])], [*changes])
+
+    def falling(s: float) -> float:
+        fallen = law.critical_force - law.post_force
+        return law.critical_force - fallen * (s - ends[1]) / law.fall
+
+    def loading(s: float) -> Stretch:
+        force: Any = falling
+        kink = ends[2]
+        if s < ends[1] - 1e-9:
+            force, kink = (lambda _: law.critical_force), ends[1]
+        elif s >= ends[2] - 1e-9:
+            force, kink = (lambda _: law.post_force), np.inf
+        turn = Change(lambda y: y[1], -1.0, lambda y: unloading(y[0], force(y[0])))
+        if not np.isfinite(kink):
+            return stretch(force, turn)
+        return stretch(force, turn, Change(lambda y: y[0] - kink, 1.0, lambda y: loading(y[0])))
+
+    def unloading(largest: float, top: float) -> Stretch:
+        left = residual(largest)
+        on = Change(lambda y: y[0] - largest, 1.0, lambda y: loading(y[0]))
+        off = Change(lambda y: y[0] - left, -1.0, lambda _: free(largest, top))
+        return stretch(lambda s: top * (s - left) / (largest - left), on, off)
+
+    def free(largest: float, top: float) -> Stretch:
+        left = residual(largest)
+        on = Change(lambda y: y[0] - left, 1.0, lambda _: unloading(largest, top))
+        return stretch(lambda _: 0.0, on)
+
+    elastic = stretch(
+        lambda s: law.stiffness * s, Change(lambda y: y[0] - start, 1.0, lambda y: loading(y[0]))
+    )
+    first = stretch(lambda _: 0.0, Change(lambda y: y[0], 1.0, lambda _: elastic))
+    times = np.linspace(0.0, 9.0, 91)
+    x, _ = in_stretches(first, [-1.0, 2.2], times).T
+    response = bs.simulate(problem, "dop853", rtol=1e-12)
+    found = response.sample("displacement", "P", "dx", times=times)
+    assert np.abs(found - x).max() < 1e-8 * np.abs(x).max()
+    acceleration = response.sample("acceleration", "P", "dx", times=times)
+    force = -response.sample("stop_force", "stop", times=times)
+    assert np.abs(acceleration + omega**2 * found - force).max() < 1e-9
     assert len(response.event_table()["time"]) >= 4
 
 

@@ -8,6 +8,7 @@ import pytest
 import bumpstop as bs
 
 from .one_mass import one_mass, shaking
+from .stretches import Change, Stretch, in_stretches
 
 CURVE = [(1e-3, 100.0), (2e-3, 140.0), (5e-3, 160.0), (9e-3, 160.0)]
 
@@ -97,6 +98,64 @@ def test_a_shaken_mass_follows_return_mapping(kind: str) -> None:
         run = bs.simulate(problem, method, dt=4e-6)
         found = run.sample("displacement", "P", "dx", times=times[::50])
         assert np.abs(found - x[::50]).max() < 2e-3 * np.abs(x).max(), method
+
+
+@pytest.mark.parametrize("kind", ["isotropic", "kinematic"])
+def test_a_shaken_mass_is_that_of_scipy(kind: str) -> None:
+    """Plastic flow by its own rate, from event to event: tension, motion and plastic elongation."""
+    law = spring(curve=CURVE if kind == "isotropic" else CURVE[:2], hardening=kind)
+    points, stiffness = np.array(law.curve), law.stiffness
+    knots = points[:, 0] - points[:, 1] / stiffness
+    slopes = np.diff(points[:, 1]) / np.diff(knots)
+    isotropic = kind == "isotropic"
+
+    def tension(y: Any) -> float:
+        return float(stiffness * (y[0] - y[2]))
+
+    def limit(y: Any, sign: float) -> float:
+        """Return how far the tension is below its limit on one side."""
+        if isotropic:
+            return float(np.interp(y[3], knots, points[:, 1]) - sign * tension(y))
+        return float(points[0, 1] - sign * (tension(y) - slopes[0] * y[2]))
+
+    def below(sign: float) -> Any:
+        return lambda y: limit(y, sign)
+
+    def rates(t: float, y: Any, flow: float) -> Any:
+        pull = 110.0 * np.sin(60.0 * np.pi * t)
+        return [y[1], pull - tension(y), flow * y[1], abs(flow * y[1])]
+
+    def elastic(_: Any) -> Stretch:
+        ends = [Change(below(sign), -1.0, plastic(sign)) for sign in (1.0, -1.0)]
+        return Stretch(lambda t, y: rates(t, y, 0.0), ends)
+
+    def plastic(sign: float) -> Any:
+        def begins(y: Any) -> Stretch:
+            path = y[3] + 1e-13
+            segment = min(int(np.searchsorted(knots, path, "right")) - 1, len(slopes) - 1)
+            slope = slopes[segment if isotropic else 0]
+            ends = [Change(lambda y: y[1], -sign, elastic)]
+            if isotropic and segment + 1 < len(slopes):
+                end = knots[segment + 1]
+                ends.append(Change(lambda y: y[3] - end, 1.0, begins))
+            return Stretch(lambda t, y: rates(t, y, stiffness / (stiffness + slope)), ends)
+
+        return begins
+
+    times = np.linspace(0.0, 0.2, 101)
+    states = in_stretches(elastic(None), [0.0, 0.0, 0.0, 0.0], times)
+    assert states[-1, 3] > 2e-3
+    problem = one_mass(law, loads=[shaking(110.0, 30.0)], duration=0.2)
+    for method in ("exact", "dop853"):
+        response = bs.simulate(problem, method, rtol=None if method == "exact" else 1e-12)
+        found = response.sample("displacement", "P", "dx", times=times)
+        assert np.abs(found - states[:, 0]).max() < 1e-8 * np.abs(states[:, 0]).max()
+        acting = -response.sample("stop_force", "tie", times=times)
+        expected = stiffness * (states[:, 0] - states[:, 2])
+        assert np.abs(acting - expected).max() < 1e-8 * np.abs(expected).max()
+        for column, name in ((2, "plastic_elongation"), (3, "plastic_path")):
+            inner = response.sample("internal_variable", "tie", name, times=times)
+            assert np.abs(inner - states[:, column]).max() < 1e-8 * states[-1, 3]
 
 
 @pytest.mark.parametrize("kind", ["isotropic", "kinematic"])

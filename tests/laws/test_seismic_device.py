@@ -8,6 +8,7 @@ import pytest
 import bumpstop as bs
 
 from .one_mass import one_mass, runge_kutta, shaking
+from .stretches import Change, Stretch, in_stretches
 
 PARTS: dict[str, Any] = {
     "first_stiffness": 6e3,
@@ -57,6 +58,32 @@ def test_a_shaken_mass_agrees_with_tiny_steps() -> None:
         assert response.energy_residual < 1e-8
         assert set(response.event_table()["guard"]) == {"no elongation"}
         assert response.energy_terms([0.6])["dissipated_stops"][0] > 0.1
+
+
+def test_force_and_motion_are_those_of_scipy() -> None:
+    """Stretch by stretch between the instants without elongation, where the damper has its cusp."""
+    law = device(rest_speed=0.05, exponent=0.5)
+    problem = one_mass(law, speed=0.3, loads=[shaking(60.0, 3.0)], duration=0.6)
+
+    def force(x: Any, v: Any) -> Any:
+        spring = 500.0 * x + 5500.0 * x / np.sqrt(1 + (500.0 * x) ** 2)
+        return spring + 40.0 * np.abs(x / 0.03) ** 0.5 * v / (v * v + 0.0025) ** 0.25
+
+    def rates(t: float, y: Any) -> Any:
+        return [y[1], 60.0 * np.sin(6 * np.pi * t) - force(*y)]
+
+    def side(sign: float) -> Stretch:
+        return Stretch(rates, [Change(lambda y: y[0], -sign, lambda _: side(-sign))])
+
+    times = np.linspace(0.0, 0.6, 61)
+    x, v = in_stretches(side(1.0), [0.0, 0.3], times).T
+    response = bs.simulate(problem, rtol=1e-13)
+    found = response.sample("displacement", "P", "dx", times=times)
+    assert np.abs(found - x).max() < 1e-8 * np.abs(x).max()
+    acting = -response.sample("stop_force", "device", times=times)
+    expected = force(x, v)
+    # At the start the elongation is zero: its rounding is all that the damper's root sees.
+    assert np.abs(acting - expected)[1:].max() < 1e-8 * np.abs(expected).max()
 
 
 def test_the_force_is_what_acts() -> None:
