@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from .several.laws.rigid_stop import RigidStop
+from .several.problem import SeveralStops
 from .several.scan import ScanSolution
 from .several.undamped import energy_drift, random_undamped, reversed_from
 from .several.verdict import EPSILON
@@ -41,3 +43,22 @@ def test_ten_thousand_impacts_of_several_stops_keep_the_energy(seed: int, longer
     times = np.linspace(0.0, problem.duration, 2000)
     drift = energy_drift(problem, history.motion(times, 0), history.motion(times, 1))
     assert drift < 1e-11
+
+
+@pytest.mark.parametrize(("seed", "duration"), [(0, 1000.0), (3, 650.0)])
+def test_ten_thousand_impacts_between_rigid_stops_keep_the_energy(
+    seed: int, duration: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    omega, row = np.sort(rng.uniform(5, 60, 4)), rng.normal(size=4)
+    history = SeveralStops(
+        omega2=omega**2,
+        damping=np.zeros(4),
+        stops=(),
+        others=(RigidStop(row, 0.02, 1.0), RigidStop(-row, 0.03, 1.0)),
+        duration=duration,
+        displacement=np.zeros(4),
+        velocity=rng.normal(size=4),
+    ).solve()
+    assert sum(history.impacts(stop)["start"].size for stop in (0, 1)) >= IMPACTS
+    assert history.energy_residual() < 1e-11

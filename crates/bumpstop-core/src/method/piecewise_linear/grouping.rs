@@ -180,8 +180,7 @@ pub(crate) fn static_groups(
     let (omega2, phi) = (&coupling.omega2, &coupling.phi);
     to.clear();
     to.extend_from_slice(forces);
-    let is_pushed = forces.iter().any(|force| *force != 0.0);
-    if constant == 0.0 && !is_pushed {
+    if constant == 0.0 && forces.iter().all(|force| *force == 0.0) {
         return true;
     }
     let mut soft = 0;
@@ -191,7 +190,7 @@ pub(crate) fn static_groups(
         }
     }
     let (mut at_softest, mut resisting) = resisted(coupling, soft, to, constant);
-    if is_pushed {
+    if is_nearly_all(resisting, phi, forces) {
         for (force, phi) in to.iter_mut().zip(phi) {
             *force = phi.mul_add(resisting, *force);
         }
@@ -211,6 +210,20 @@ pub(crate) fn static_groups(
     }
     true
 }
+
+/// Whether a spring's force leaves little of others.
+#[inline(always)]
+fn is_nearly_all(resisting: f64, phi: &[f64], forces: &[f64]) -> bool {
+    let (mut left, mut largest) = (0.0f64, 0.0f64);
+    for (force, phi) in forces.iter().zip(phi) {
+        left = left.max((force + phi * resisting).abs());
+        largest = largest.max(force.abs());
+    }
+    left < LITTLE * largest
+}
+
+/// Part of the forces that is left when so many digits of it are lost that it is found once more.
+const LITTLE: f64 = 1e-3;
 
 /// Where the softest group rests under forces, and the force of the spring. The softest one's own
 /// row gives this, so that a rigid-body mode (stiffness zero) needs no special case.
