@@ -14,6 +14,7 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
+import xarray as xr
 
 sys.path.insert(0, str(Path(__file__).parents[1]))  # the oracle lives among the tests
 
@@ -53,8 +54,8 @@ def problem() -> bs.Problem:
     return bs.Problem(beam(), laws=[stop], initial=start, duration=DURATION)
 
 
-def ours(model: bs.Problem, drawn: tuple[Array, Array, Array], *, lanes: bool) -> Array:
-    """Return the tips (run, time)."""
+def solved(model: bs.Problem, drawn: tuple[Array, Array, Array], *, lanes: bool) -> xr.Dataset:
+    """Return what is kept of each run."""
     stiffness, gap, scale = drawn
     varied = {
         "stops.spring.stiffness": stiffness,
@@ -63,7 +64,12 @@ def ours(model: bs.Problem, drawn: tuple[Array, Array, Array], *, lanes: bool) -
     }
     found = bs.batch(model, varied, {"tip": TIP}, lanes=lanes)
     assert not found.failed.any()
-    tips: Array = found.tip.values
+    return found
+
+
+def ours(model: bs.Problem, drawn: tuple[Array, Array, Array], *, lanes: bool) -> Array:
+    """Return the tips (run, time)."""
+    tips: Array = solved(model, drawn, lanes=lanes).tip.values
     return tips
 
 
@@ -131,11 +137,11 @@ def grown(model: bs.Problem, largest: int) -> tuple[dict[int, float], float]:
         rates[count], left = 0.0, SECONDS
         while left > 0.0:
             start = perf_counter()
-            tips = ours(model, drawn, lanes=True)
+            found = solved(model, drawn, lanes=True)
             seconds = perf_counter() - start
             rates[count], left = max(rates[count], count / seconds), left - seconds
-        numbers = (sum(column.nbytes for column in drawn) + tips.nbytes) / 1e6
-        del tips
+        numbers = found.nbytes / 1e6  # with the samples, which are its coordinates
+        del found
         beside = max(beside, most_memory() - before - numbers)
         print(f"{count:10}{rates[count]:12.0f}{numbers:16.1f}{beside:12.1f}")
     return rates, beside
