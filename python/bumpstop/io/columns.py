@@ -14,7 +14,7 @@ from bumpstop.instants import Grid
 from bumpstop.io.netcdf_format import CHECKSUM, checksum
 from bumpstop.structure.sparse import IndexArray
 
-__all__ = ["Column", "Instants", "numbers", "texts"]
+__all__ = ["Column", "Instants", "check_pieces", "numbers", "texts"]
 
 HELD = 64_000_000
 """Bytes of a column at most that are held in memory; others are read as they are asked for."""
@@ -28,6 +28,7 @@ def texts(dataset: h5py.Dataset) -> list[str]:
     InputError
         If they are not those that were written.
     """
+    check_pieces(dataset)
     words = [bytes(word) for word in dataset[()]]
     told = dataset.attrs.get(CHECKSUM)
     if told is not None and (told.decode() if isinstance(told, bytes) else told) != checksum(words):
@@ -43,11 +44,38 @@ def numbers(dataset: h5py.Dataset, rows: object = ()) -> NDArray[Any]:
     InputError
         If they are not those that were written: HDF5 looks at its checksums.
     """
+    if rows == ():
+        check_pieces(dataset)
     try:
         found: NDArray[Any] = dataset[rows]
     except OSError as error:
         raise _damaged(dataset) from error
     return found
+
+
+def check_pieces(dataset: h5py.Dataset) -> None:
+    """Raise InputError where a piece of a dataset is not where it belongs.
+
+    The index of the pieces has no checksum of its own, and HDF5 reads zeros for those that it does
+    not find.
+    """
+    if dataset.chunks is None:
+        return
+    sizes = np.array(dataset.chunks)
+    wanted = int(np.prod(-(-np.array(dataset.shape) // sizes)))
+    starts: set[tuple[int, ...]] = set()
+
+    def visit(piece: Any) -> None:
+        starts.add(tuple(piece.chunk_offset))
+
+    try:
+        dataset.id.chunk_iter(visit)
+    except (OSError, RuntimeError) as error:
+        raise _damaged(dataset) from error
+    places = np.array(sorted(starts), dtype=np.uint64).reshape(-1, len(sizes))
+    inside = (places < np.array(dataset.shape, dtype=np.uint64)).all()
+    if len(places) != wanted or not inside or (places % sizes.astype(np.uint64)).any():
+        raise _damaged(dataset)
 
 
 def _damaged(dataset: h5py.Dataset) -> InputError:
@@ -69,7 +97,8 @@ class Column:
     def __init__(self, dataset: h5py.Dataset) -> None:
         self._dataset = dataset
         self.is_held = dataset.nbytes <= HELD
-        self._held = numbers(dataset) if self.is_held else np.zeros(0)
+        check_pieces(dataset)
+        self._held = numbers(dataset, ...) if self.is_held else np.zeros(0)
 
     def at(self, rows: IndexArray) -> NDArray[Any]:
         """Return some rows.
