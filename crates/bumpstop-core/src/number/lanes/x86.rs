@@ -7,25 +7,27 @@ use std::arch::x86_64::*;
 
 /// Runs the work with the widest instructions that this machine has.
 ///
-/// With `--cfg bumpstop_avx512_only` it is compiled for those alone: the same bits from a build
-/// in a third of the time, for work on the core.
+/// Where the build is for machines that know them anyway (`-C target-cpu=native`), the work is
+/// compiled for those alone: the same bits from a build in a third of the time.
 #[inline]
 pub(super) fn dispatch<W: Vectorised>(work: W) -> W::Output {
-    let wide = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq");
-    if cfg!(bumpstop_avx512_only) {
-        assert!(wide, "built for AVX-512 only");
-        // SAFETY: both features were just detected.
-        return unsafe { with_avx512(work) };
-    }
-    if wide {
-        // SAFETY: both features were just detected.
-        unsafe { with_avx512(work) }
-    } else if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        // SAFETY: both features were just detected.
-        unsafe { with_avx2(work) }
+    if cfg!(all(target_feature = "avx512f", target_feature = "avx512dq")) || has_avx512() {
+        // SAFETY: both features were just detected, or the whole build asks for them.
+        unsafe { work.run_with_avx512() }
+    } else if cfg!(all(target_feature = "avx2", target_feature = "fma")) || has_avx2() {
+        // SAFETY: both features were just detected, or the whole build asks for them.
+        unsafe { work.run_with_avx2() }
     } else {
         work.run::<Plain>()
     }
+}
+
+fn has_avx512() -> bool {
+    is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")
+}
+
+fn has_avx2() -> bool {
+    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
 }
 
 /// What some work gives with plain arithmetic and with each set of instructions that this machine
@@ -33,21 +35,34 @@ pub(super) fn dispatch<W: Vectorised>(work: W) -> W::Output {
 #[cfg(test)]
 pub(crate) fn by_each<W: Vectorised>(work: impl Fn() -> W) -> Vec<W::Output> {
     let mut found = vec![work().run::<Plain>()];
-    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+    if has_avx2() {
         // SAFETY: both features were just detected.
-        found.push(unsafe { with_avx2(work()) });
+        found.push(unsafe { work().run_with_avx2() });
     }
-    if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+    if has_avx512() {
         // SAFETY: both features were just detected.
-        found.push(unsafe { with_avx512(work()) });
+        found.push(unsafe { work().run_with_avx512() });
     }
     found
 }
 
-#[target_feature(enable = "avx512f,avx512dq")]
-fn with_avx512<W: Vectorised>(work: W) -> W::Output {
-    work.run::<Avx512>()
+/// Work behind a function for each set of instructions.
+///
+/// A trait's methods are compiled beside the type that they work on, and so side by side with
+/// those of other work; free functions would all be compiled in one unit, one after another.
+trait Compiled: Vectorised + Sized {
+    #[target_feature(enable = "avx512f,avx512dq")]
+    unsafe fn run_with_avx512(self) -> Self::Output {
+        self.run::<Avx512>()
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn run_with_avx2(self) -> Self::Output {
+        self.run::<Avx2>()
+    }
 }
+
+impl<W: Vectorised> Compiled for W {}
 
 /// `a b + c` lane by lane, rounded once; `None` where the machine has no instruction for it.
 pub(super) fn fused(a: [f64; LANES], b: [f64; LANES], c: [f64; LANES]) -> Option<[f64; LANES]> {
@@ -58,11 +73,6 @@ pub(super) fn fused(a: [f64; LANES], b: [f64; LANES], c: [f64; LANES]) -> Option
 #[target_feature(enable = "fma")]
 fn with_fma(a: [f64; LANES], b: [f64; LANES], c: [f64; LANES]) -> [f64; LANES] {
     std::array::from_fn(|i| a[i].mul_add(b[i], c[i]))
-}
-
-#[target_feature(enable = "avx2,fma")]
-fn with_avx2<W: Vectorised>(work: W) -> W::Output {
-    work.run::<Avx2>()
 }
 
 /// One register of eight numbers.
@@ -340,7 +350,7 @@ mod tests {
         }
         let numbers = [0.0, -1.5, 2.25, 1e-9, 300.0, -0.1, 17.0, 1e6];
         // SAFETY: both features were just detected.
-        let found = unsafe { with_avx2(Mix(numbers)) };
+        let found = unsafe { Mix(numbers).run_with_avx2() };
         assert_eq!(found, Mix(numbers).run::<Plain>());
     }
 }
