@@ -58,6 +58,7 @@ bench: $(STAMPS)/byte-code $(STAMPS)/dev $(STAMPS)/bench ## Measure the speed be
 	$(BIN)/python benchmarks/eigen.py
 	$(BIN)/python benchmarks/assembly.py
 	$(BIN)/python benchmarks/full_model.py
+	$(BIN)/python benchmarks/explicit_step.py
 
 docs: $(STAMPS)/core $(STAMPS)/docs ## Build the documentation, running its examples
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet \

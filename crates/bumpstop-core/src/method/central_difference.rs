@@ -8,9 +8,9 @@
 //! Source: T. J. R. Hughes, The Finite Element Method, 1987, section 9.1.
 
 use super::fixed_step::{
-    ChangingLoads, Count, March, Modal, Setting, Step, StepRecord, VelocityRule, check_forces,
-    check_growth, check_step, check_still, check_uncoupled, coupling, highest_frequency, in_lanes,
-    law_force, laws_damping, modal, pushed, run,
+    Any, ChangingLoads, Count, Follow, March, Modal, Scheme, Setting, Step, StepRecord,
+    VelocityRule, among_many, check_forces, check_growth, check_step, check_still, check_uncoupled,
+    coupling, highest_frequency, in_lanes, law_force, laws_damping, modal, pushed, run,
 };
 use super::{Observer, check_memories, check_not_stepped};
 use crate::error::Result;
@@ -137,7 +137,8 @@ impl March for CentralDifference<'_, '_> {
                     }
                 }
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
-                    forces[i] = law_force(*law, &mut seen[i], &contact.now, &contact.rate);
+                    let Steps { now, rate, .. } = &contact.steps;
+                    forces[i] = law_force(*law, &mut seen[i], now, rate);
                     numbers[i] = seen[i].number;
                 }
                 if P::REMEMBERS
@@ -152,7 +153,7 @@ impl March for CentralDifference<'_, '_> {
                     for c in 0..law.rows().len() {
                         let free = contact.free(c, q.as_ref(), before.as_ref());
                         let next = pushed(laws, couplings.as_ref(), c, forces, free);
-                        contact.push(c, next, dt);
+                        contact.steps.follow(c, next);
                     }
                 }
                 let known = own.as_ref().iter().zip(past.as_ref()).zip(load.as_ref());
@@ -177,13 +178,113 @@ impl March for CentralDifference<'_, '_> {
         }
         Ok(())
     }
+
+    #[inline(always)]
+    fn among_many<P: Law, I: Instructions>(self, setting: &Setting<'_, P>) -> Result<()> {
+        let Self { record, observer } = self;
+        among_many(
+            Modes::<I>::new(setting, record.dt),
+            setting,
+            record,
+            observer,
+        )
+    }
+}
+
+/// The modes at two steps, moved by their forces.
+struct Modes<I: Instructions> {
+    dt: f64,
+    own: Vec<Lanes<I>>,
+    past: Vec<Lanes<I>>,
+    gain: Vec<Lanes<I>>,
+    initial: Vec<f64>,
+    before: Vec<Lanes<I>>,
+    now: Vec<Lanes<I>>,
+}
+
+impl<I: Instructions> Modes<I> {
+    fn new<P: Law>(setting: &Setting<'_, P>, dt: f64) -> Self {
+        let Coefficients { own, past, gain } = Coefficients::new(setting.system, dt);
+        let initial = displacement_before(setting, dt);
+        Self {
+            dt,
+            own: modal::<I, Any>(&own),
+            past: modal::<I, Any>(&past),
+            gain: modal::<I, Any>(&gain),
+            before: modal::<I, Any>(&initial),
+            now: modal::<I, Any>(setting.displacement),
+            initial,
+        }
+    }
+}
+
+impl<I: Instructions> Scheme<I> for Modes<I> {
+    type Followed = Steps;
+
+    fn followed<P: Law>(&self, law: &P, setting: &Setting<'_, P>) -> Steps {
+        Steps::new(law, setting, &self.initial, self.dt)
+    }
+    fn before(&self) -> &[f64] {
+        &self.initial
+    }
+    #[inline(always)]
+    fn step(&mut self, block: usize, force: Lanes<I>) -> Lanes<I> {
+        let now = self.now[block];
+        let known = self.past[block].mul_add(self.before[block], self.gain[block] * force);
+        let next = self.own[block].mul_add(now, known);
+        (self.before[block], self.now[block]) = (now, next);
+        next
+    }
+    fn displacement(&self) -> &[Lanes<I>] {
+        &self.now
+    }
+}
+
+/// Local positions of a law at three steps.
+struct Steps {
+    dt: f64,
+    now: Local<f64>,
+    rate: Local<f64>,
+    previous: Local<f64>,
+    older: Local<f64>,
+}
+
+impl Steps {
+    fn new<L: Law>(law: &L, setting: &Setting<'_, L>, before: &[f64], dt: f64) -> Self {
+        let (now, rate) = setting.local_start(law);
+        let previous = project(law, before);
+        Self {
+            dt,
+            now,
+            rate,
+            previous,
+            // Such that the difference at the start gives the initial velocity.
+            older: std::array::from_fn(|c| 2.0 * dt * rate[c] - 3.0 * now[c] + 4.0 * previous[c]),
+        }
+    }
+}
+
+impl Follow for Steps {
+    fn position(&self) -> &Local<f64> {
+        &self.now
+    }
+    fn velocity(&self) -> &Local<f64> {
+        &self.rate
+    }
+    /// The rate is `(3 x[n] - 4 x[n-1] + x[n-2]) / (2 dt)`.
+    #[inline(always)]
+    fn follow(&mut self, c: usize, next: f64) {
+        (self.older[c], self.previous[c]) = (self.previous[c], self.now[c]);
+        self.now[c] = next;
+        self.rate[c] = (3.0 * next - 4.0 * self.previous[c] + self.older[c]) * (0.5 / self.dt);
+    }
 }
 
 fn weighted(row: &[f64], weight: &[f64]) -> Vec<f64> {
     row.iter().zip(weight).map(|(r, w)| r * w).collect()
 }
 
-/// A law's rows times the scheme's coefficients, and its local positions at three steps.
+/// A law's rows times the scheme's coefficients, and its local positions.
 struct Contact<I: Instructions, B: Count> {
     own: Local<Modal<I, B>>,
     past: Local<Modal<I, B>>,
@@ -191,10 +292,7 @@ struct Contact<I: Instructions, B: Count> {
     load: Local<Lanes<I>>,
     /// What unit forces add to the modes in a step.
     pushes: Local<Modal<I, B>>,
-    now: Local<f64>,
-    rate: Local<f64>,
-    previous: Local<f64>,
-    older: Local<f64>,
+    steps: Steps,
 }
 
 impl<I: Instructions, B: Count> Contact<I, B> {
@@ -205,8 +303,6 @@ impl<I: Instructions, B: Count> Contact<I, B> {
         Coefficients { own, past, gain }: &Coefficients,
         dt: f64,
     ) -> Self {
-        let (now, rate) = setting.local_start(law);
-        let previous = project(law, before);
         let zero = vec![0.0; gain.len()];
         let row = |c: usize| law.rows().get(c).unwrap_or(&zero);
         let times =
@@ -216,11 +312,7 @@ impl<I: Instructions, B: Count> Contact<I, B> {
             past: times(past),
             load: project(law, &weighted(setting.forcing.forces(), gain)).map(Lanes::first),
             pushes: times(gain),
-            now,
-            rate,
-            previous,
-            // Such that the difference at the start gives the initial velocity.
-            older: std::array::from_fn(|c| 2.0 * dt * rate[c] - 3.0 * now[c] + 4.0 * previous[c]),
+            steps: Steps::new(law, setting, before, dt),
         }
     }
 
@@ -235,14 +327,6 @@ impl<I: Instructions, B: Count> Contact<I, B> {
             total = own.mul_add(*q, total);
         }
         total.total()
-    }
-
-    /// Goes one step on; the rate is `(3 x[n] - 4 x[n-1] + x[n-2]) / (2 dt)`.
-    #[inline(always)]
-    fn push(&mut self, c: usize, next: f64, dt: f64) {
-        (self.older[c], self.previous[c]) = (self.previous[c], self.now[c]);
-        self.now[c] = next;
-        self.rate[c] = (3.0 * next - 4.0 * self.previous[c] + self.older[c]) * (0.5 / dt);
     }
 }
 

@@ -6,9 +6,9 @@
 //! Integration, 2nd edition, 2006, section I.1.2.
 
 use super::fixed_step::{
-    ChangingLoads, Count, March, Modal, Setting, Step, StepRecord, VelocityRule, check_forces,
-    check_growth, check_step, check_still, check_uncoupled, coupling, highest_frequency, in_lanes,
-    law_force, laws_damping, modal, pushed, run,
+    Any, ChangingLoads, Count, Follow, March, Modal, Scheme, Setting, Step, StepRecord,
+    VelocityRule, among_many, check_forces, check_growth, check_step, check_still, check_uncoupled,
+    coupling, highest_frequency, in_lanes, law_force, laws_damping, modal, pushed, run,
 };
 use super::{Observer, check_memories};
 use crate::error::Result;
@@ -93,9 +93,7 @@ impl March for SymplecticEuler<'_, '_> {
         let forces = forces.as_mut();
         let mut q = modal::<I, B>(setting.displacement);
         let mut v = modal::<I, B>(setting.velocity);
-        let both = setting.displacement.iter().zip(setting.velocity);
-        let before: Vec<f64> = both.map(|(q, v)| q - dt * v).collect();
-        let first = record.begin(setting, &before);
+        let first = record.begin(setting, &displacement_before(setting, dt));
         let mut seen = A::make(laws.len(), |i| first[i]);
         let seen = seen.as_mut();
         let (blocks, states) = (q.as_ref().len(), laws.len().max(1));
@@ -115,7 +113,9 @@ impl March for SymplecticEuler<'_, '_> {
                     }
                 }
                 for (i, (law, contact)) in laws.iter().zip(contacts.iter()).enumerate() {
-                    let (position, velocity) = (&contact.position, &contact.velocity);
+                    let Moved {
+                        position, velocity, ..
+                    } = &contact.moved;
                     forces[i] = law_force(*law, &mut seen[i], position, velocity);
                     numbers[i] = seen[i].number;
                 }
@@ -131,8 +131,7 @@ impl March for SymplecticEuler<'_, '_> {
                     for c in 0..law.rows().len() {
                         let free = contact.free(c, q.as_ref(), v.as_ref());
                         let velocity = pushed(laws, couplings.as_ref(), c, forces, free);
-                        contact.position[c] = velocity.mul_add(dt, contact.position[c]);
-                        contact.velocity[c] = velocity;
+                        contact.moved.follow(c, velocity);
                     }
                 }
                 let known = omega2.as_ref().iter().zip(damping.as_ref());
@@ -160,6 +159,102 @@ impl March for SymplecticEuler<'_, '_> {
         }
         Ok(())
     }
+
+    #[inline(always)]
+    fn among_many<P: Law, I: Instructions>(self, setting: &Setting<'_, P>) -> Result<()> {
+        let Self { record, observer } = self;
+        among_many(
+            Modes::<I>::new(setting, record.dt),
+            setting,
+            record,
+            observer,
+        )
+    }
+}
+
+/// `q[-1] = q0 - dt v0`, from which the record tells the initial velocity.
+fn displacement_before<P>(setting: &Setting<'_, P>, dt: f64) -> Vec<f64> {
+    let both = setting.displacement.iter().zip(setting.velocity);
+    both.map(|(q, v)| q - dt * v).collect()
+}
+
+/// The modes, moved by their forces.
+struct Modes<I: Instructions> {
+    dt: f64,
+    omega2: Vec<Lanes<I>>,
+    damping: Vec<Lanes<I>>,
+    before: Vec<f64>,
+    displacement: Vec<Lanes<I>>,
+    velocity: Vec<Lanes<I>>,
+}
+
+impl<I: Instructions> Modes<I> {
+    fn new<P>(setting: &Setting<'_, P>, dt: f64) -> Self {
+        Self {
+            dt,
+            omega2: modal::<I, Any>(setting.system.omega2()),
+            damping: modal::<I, Any>(setting.system.damping()),
+            before: displacement_before(setting, dt),
+            displacement: modal::<I, Any>(setting.displacement),
+            velocity: modal::<I, Any>(setting.velocity),
+        }
+    }
+}
+
+impl<I: Instructions> Scheme<I> for Modes<I> {
+    type Followed = Moved;
+
+    fn followed<P: Law>(&self, law: &P, setting: &Setting<'_, P>) -> Moved {
+        Moved::new(law, setting, self.dt)
+    }
+    fn before(&self) -> &[f64] {
+        &self.before
+    }
+    #[inline(always)]
+    fn step(&mut self, block: usize, force: Lanes<I>) -> Lanes<I> {
+        let (q, v) = (self.displacement[block], self.velocity[block]);
+        let (w2, c) = (self.omega2[block], self.damping[block]);
+        let step = Lanes::of(self.dt);
+        let next = force.sub_mul(w2, q).sub_mul(c, v).mul_add(step, v);
+        self.velocity[block] = next;
+        self.displacement[block] = next.mul_add(step, q);
+        next
+    }
+    fn displacement(&self) -> &[Lanes<I>] {
+        &self.displacement
+    }
+}
+
+/// Local motion of a law.
+struct Moved {
+    dt: f64,
+    position: Local<f64>,
+    velocity: Local<f64>,
+}
+
+impl Moved {
+    fn new<L: Law>(law: &L, setting: &Setting<'_, L>, dt: f64) -> Self {
+        let (position, velocity) = setting.local_start(law);
+        Self {
+            dt,
+            position,
+            velocity,
+        }
+    }
+}
+
+impl Follow for Moved {
+    fn position(&self) -> &Local<f64> {
+        &self.position
+    }
+    fn velocity(&self) -> &Local<f64> {
+        &self.velocity
+    }
+    #[inline(always)]
+    fn follow(&mut self, c: usize, velocity: f64) {
+        self.position[c] = velocity.mul_add(self.dt, self.position[c]);
+        self.velocity[c] = velocity;
+    }
 }
 
 /// A law's rows times the scheme's coefficients, and its local motion.
@@ -169,8 +264,7 @@ struct Contact<I: Instructions, B: Count> {
     of_velocity: Local<Modal<I, B>>,
     /// What the loads add to the local velocities in a step.
     load: Local<Lanes<I>>,
-    position: Local<f64>,
-    velocity: Local<f64>,
+    moved: Moved,
 }
 
 impl<I: Instructions, B: Count> Contact<I, B> {
@@ -184,14 +278,12 @@ impl<I: Instructions, B: Count> Contact<I, B> {
                 .collect();
             modal::<I, B>(&products)
         };
-        let (position, velocity) = setting.local_start(law);
         Self {
             rows: std::array::from_fn(|c| modal::<I, B>(row(c))),
             of_position: std::array::from_fn(|c| times(c, &|i| -dt * omega2[i])),
             of_velocity: std::array::from_fn(|c| times(c, &|i| 1.0 - dt * damping[i])),
             load: project(law, setting.forcing.forces()).map(|p| Lanes::first(dt * p)),
-            position,
-            velocity,
+            moved: Moved::new(law, setting, dt),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Marches through time, compiled anew for the usual sizes of problems and kinds of laws.
 
+use super::many::MANY;
 use super::setting::Setting;
 use crate::error::Result;
 use crate::law::{Law, Stop};
@@ -60,6 +61,9 @@ pub(crate) trait March: Sized {
         self,
         setting: &Setting<'_, P>,
     ) -> Result<()>;
+
+    /// The march among [`MANY`] laws or more, which agrees with the other to rounding.
+    fn among_many<P: Law, I: Instructions>(self, setting: &Setting<'_, P>) -> Result<()>;
 }
 
 /// Carries a march through a problem. Plain stops, which most problems have alone, have a loop of
@@ -88,6 +92,9 @@ impl<P: Law, M: March> Vectorised for Counted<'_, P, M> {
     #[inline(always)]
     fn run<I: Instructions>(self) -> Result<()> {
         let Self { setting, march } = self;
+        if setting.laws.len() >= MANY {
+            return march.among_many::<P, I>(setting);
+        }
         if setting.forcing.varies() {
             return march.march::<P, I, Any, Any, true>(setting);
         }

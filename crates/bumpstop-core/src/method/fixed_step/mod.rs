@@ -4,6 +4,7 @@
 mod laws;
 mod ledgers;
 mod loads;
+mod many;
 mod march;
 mod record;
 mod setting;
@@ -14,7 +15,8 @@ pub use record::{StepRecord, VelocityRule};
 pub(crate) use laws::{coupling, law_force, pushed};
 pub(crate) use ledgers::{check_growth, sampled_states, step_ledgers};
 pub(crate) use loads::ChangingLoads;
-pub(crate) use march::{Count, March, Modal, in_lanes, modal, run};
+pub(crate) use many::{Follow, Scheme, among_many};
+pub(crate) use march::{Any, Count, March, Modal, in_lanes, modal, run};
 pub(crate) use setting::Setting;
 
 use crate::error::{Error, Result};
@@ -184,6 +186,26 @@ mod tests {
             assert_same_bits(&known, &run(method, 8, two));
             let rubbing_known = run(method, 8, vec![rubbing(8, 1e-3)]);
             assert_same_bits(&rubbing_known, &run(method, 24, vec![rubbing(24, 1e-3)]));
+        }
+    }
+
+    /// Stops that are never reached let many laws be compared with one.
+    #[test]
+    fn many_laws_move_the_modes_as_one_does_to_rounding() {
+        for method in METHODS {
+            for modes in [5, 24] {
+                let one = run(method, modes, vec![rubbing(modes, 1e-3)]);
+                let mut laws = vec![rubbing(modes, 1e3); 2 * many::MANY + 1];
+                laws.insert(3, rubbing(modes, 1e-3));
+                let many = run(method, modes, laws);
+                assert_eq!(one.events().len(), many.events().len());
+                for (one, many) in one.events().iter().zip(many.events()) {
+                    assert_eq!((one.time, 3), (many.time, many.law));
+                }
+                for (one, many) in motion(&one).iter().zip(motion(&many)) {
+                    assert!((one - many).abs() < 1e-14, "{one} {many}");
+                }
+            }
         }
     }
 

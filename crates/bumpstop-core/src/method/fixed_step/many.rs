@@ -1,0 +1,162 @@
+//! Marches among many laws, where products with their rows take most of a step.
+
+use super::laws::law_force;
+use super::loads::ChangingLoads;
+use super::record::StepRecord;
+use super::setting::Setting;
+use crate::error::Result;
+use crate::law::{COORDINATES, Law, Local};
+use crate::method::Observer;
+use crate::number::{Block, Instructions, LANES, Lanes, Number, blocks, padded};
+
+/// From so many laws on a step goes through their rows once; fewer are kept up with one by one.
+pub(super) const MANY: usize = 4;
+
+/// A scheme that is told the modal forces of a step.
+pub(crate) trait Scheme<I: Instructions> {
+    /// How it follows the coordinates of a law.
+    type Followed: Follow;
+
+    /// What is known of a law at t = 0.
+    fn followed<P: Law>(&self, law: &P, setting: &Setting<'_, P>) -> Self::Followed;
+
+    /// Modal displacements one step before the start.
+    fn before(&self) -> &[f64];
+
+    /// Moves eight modes one step on under their forces, and returns what laws read of them.
+    fn step(&mut self, block: usize, force: Lanes<I>) -> Lanes<I>;
+
+    /// Modal displacements now.
+    fn displacement(&self) -> &[Lanes<I>];
+}
+
+/// The coordinates of one law from step to step.
+pub(crate) trait Follow {
+    /// Positions now, in m.
+    fn position(&self) -> &Local<f64>;
+    /// Velocities now, in m/s.
+    fn velocity(&self) -> &Local<f64>;
+    /// Goes one step on with what a coordinate's row reads of the modes.
+    fn follow(&mut self, coordinate: usize, read: f64);
+}
+
+/// Carries a scheme through a problem. Laws read the modes of each step as soon as these have
+/// moved, eight at a time, while the part of their rows that moved them is at hand: a step
+/// touches each number of the rows once.
+#[inline(always)]
+pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
+    mut scheme: S,
+    setting: &Setting<'_, P>,
+    record: &mut StepRecord,
+    observer: Observer<'_>,
+) -> Result<()> {
+    let mut rows = Rows::<I>::new(&setting.laws, setting.system.modes());
+    let same = vec![1.0; setting.system.modes()];
+    let mut changing = ChangingLoads::new(setting.forcing, record.dt, &same);
+    let mut load = blocks(setting.forcing.forces());
+    let changes = setting.forcing.varies();
+    let mut followed = Vec::new();
+    for law in &setting.laws {
+        followed.push(scheme.followed(*law, setting));
+    }
+    let mut seen = record.begin(setting, scheme.before());
+    let states = seen.len();
+    while let Some(stretch) = record.next_stretch() {
+        stretch.observe(observer)?;
+        let kept = stretch.rows.chunks_exact_mut(load.len());
+        let mut memories = stretch.states.memories.chunks_exact_mut(states);
+        for (kept, numbers) in kept.zip(stretch.states.numbers.chunks_exact_mut(states)) {
+            if changes {
+                load.copy_from_slice(changing.next());
+            }
+            let mut forces = rows.forces.iter_mut();
+            for ((law, state), local) in setting.laws.iter().zip(&mut seen).zip(&followed) {
+                let force = law_force(*law, state, local.position(), local.velocity());
+                for (to, force) in forces.by_ref().take(law.rows().len()).zip(force) {
+                    *to = force;
+                }
+            }
+            for (number, state) in numbers.iter_mut().zip(&seen) {
+                *number = state.number;
+            }
+            if P::REMEMBERS
+                && let Some(memories) = memories.next()
+            {
+                for (memory, state) in memories.iter_mut().zip(&seen) {
+                    *memory = state.memory;
+                }
+            }
+            rows.step(&mut scheme, &load);
+            let mut read = rows.read.iter();
+            for (law, local) in setting.laws.iter().zip(&mut followed) {
+                for (coordinate, read) in read.by_ref().take(law.rows().len()).enumerate() {
+                    local.follow(coordinate, *read);
+                }
+            }
+            for (block, q) in kept.iter_mut().zip(scheme.displacement()) {
+                q.to_block(block);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The rows of all laws, one under another, with zeros to whole lanes of them.
+struct Rows<I: Instructions> {
+    /// Eight columns of all rows, then the next eight.
+    columns: Vec<Block>,
+    /// Force along each row.
+    forces: Vec<f64>,
+    sums: Vec<Lanes<I>>,
+    /// What each row reads.
+    read: Vec<f64>,
+}
+
+impl<I: Instructions> Rows<I> {
+    fn new<P: Law>(laws: &[&P], modes: usize) -> Self {
+        let rows: Vec<Vec<Block>> = (laws.iter())
+            .flat_map(|law| law.rows().iter().take(COORDINATES))
+            .map(|row| blocks(row))
+            .collect();
+        let count = padded(rows.len());
+        let mut columns = vec![[0.0; LANES]; count * modes.div_ceil(LANES)];
+        for (block, column) in columns.chunks_exact_mut(count).enumerate() {
+            for (to, row) in column.iter_mut().zip(&rows) {
+                *to = row[block];
+            }
+        }
+        Self {
+            columns,
+            forces: vec![0.0; count],
+            sums: vec![Lanes::of(0.0); count],
+            read: vec![0.0; count],
+        }
+    }
+
+    /// Moves the modes one step on under forces and loads, and reads them.
+    #[inline(always)]
+    fn step<S: Scheme<I>>(&mut self, scheme: &mut S, load: &[Block]) {
+        let zero = Lanes::of(0.0);
+        self.sums.fill(zero);
+        let columns = self.columns.chunks_exact(self.forces.len());
+        for (block, (column, load)) in columns.zip(load).enumerate() {
+            let mut pushes = [zero; 4]; // sums do not wait for each other
+            let eights = column.as_chunks::<LANES>().0;
+            for (rows, forces) in eights.iter().zip(self.forces.as_chunks::<LANES>().0) {
+                for k in 0..LANES {
+                    let row = Lanes::of_block(&rows[k]);
+                    pushes[k % 4] = row.mul_add(Lanes::of(forces[k]), pushes[k % 4]);
+                }
+            }
+            let push = (pushes[0] + pushes[1]) + (pushes[2] + pushes[3]);
+            let moved = scheme.step(block, Lanes::of_block(load) + push);
+            for (row, sum) in column.iter().zip(&mut self.sums) {
+                *sum = Lanes::of_block(row).mul_add(moved, *sum);
+            }
+        }
+        let eights = self.sums.as_chunks::<LANES>().0.iter();
+        for (sums, read) in eights.zip(self.read.as_chunks_mut::<LANES>().0) {
+            *read = Lanes::totals(*sums);
+        }
+    }
+}
