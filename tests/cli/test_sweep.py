@@ -228,13 +228,20 @@ def test_killed_at_any_instant_and_resumed(tmp_path: Path) -> None:
     assert content(store) == content(whole)
 
 
+def hear_interrupts() -> None:
+    """Let a process hear Ctrl-C even where the tests run in the background, which does not."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize("given", [STUDY, IN_PYTHON], ids=["core", "python"])
 def test_interrupted(given: str, tmp_path: Path) -> None:
     study = written(tmp_path, given.replace("count = 5", "count = 50000"))
     words = [sys.executable, "-m", "bumpstop", "sweep", str(study), "--workers", "2"]
-    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(
+        words, stderr=subprocess.PIPE, text=True, preexec_fn=hear_interrupts
+    ) as process:
         wait_for(tmp_path / "study.zarr" / "status" / "c" / "0", process)
-        os.kill(process.pid, signal.SIGINT)
+        process.send_signal(signal.SIGINT)
         assert process.stderr is not None
         lines = process.stderr.read().splitlines()
         assert process.wait() == 130
