@@ -62,6 +62,22 @@ def test_stops_of_any_stiffness(exponent: int, modes: int) -> None:
             assert word in outcome
 
 
+def test_a_structure_that_hardly_resists_rebounds_as_masses_do() -> None:
+    """Modes 1e18 times softer than their stop, against an adaptive method."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[1e-9, 2e-9, 5e-9], shapes={("P", "dx"): [1.0, 0.7, -0.4]}
+    )
+    stop = bs.Stop("wall", node="P", normal=(1, 0, 0), gap=0.01, stiffness=2e3)
+    thrown = bs.ModalState(velocity=[-1.0, 0.3, 0.1])
+    problem = bs.Problem(basis, laws=[stop], initial=thrown, duration=0.2)
+    times = np.linspace(0.0, 0.2, 50)
+    exact, followed = (
+        bs.simulate(problem, method=method, **options).sample("modal_displacement", times=times)
+        for method, options in (("exact", {}), ("dop853", {"rtol": 1e-12}))
+    )
+    np.testing.assert_allclose(exact, followed, rtol=0.0, atol=1e-11)
+
+
 @pytest.mark.parametrize("exponent", [4, 8, 12])
 def test_a_stiff_stop_turns_the_velocity_like_a_rigid_one(exponent: int) -> None:
     """After a time ``pi / sqrt(1 + k)`` in contact, in which a spring of k loses nothing."""

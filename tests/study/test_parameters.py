@@ -107,7 +107,7 @@ def test_the_median_of_a_lognormal_is_its_median() -> None:
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
-        (lambda: bs.Values([]), "values: must be a list of values"),
+        (lambda: bs.Values([]), "values: must be a list of one value or more"),
         (lambda: bs.Values([1.0, math.inf]), "values.1: must be finite"),
         (lambda: bs.Range(1.0, 1.0), "to: is where the range starts"),
         (lambda: bs.Range(0.0, 1.0, spacing="log"), "from: must be positive for equal ratios"),
