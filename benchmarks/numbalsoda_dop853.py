@@ -1,6 +1,7 @@
 """Runge-Kutta 8(5,3) of Hairer in Fortran with a right-hand side compiled by numba."""
 
 from time import perf_counter
+from typing import Any
 
 import numba
 import numpy as np
@@ -12,8 +13,7 @@ from tests.reference.problem import Array, StopProblem
 MODES = 10
 
 
-@numba.cfunc(lsoda_sig)  # type: ignore[untyped-decorator]  # numba has no types
-def _rates(_time: float, state: Array, rates: Array, data: Array) -> None:
+def _fill(_time: float, state: Array, rates: Array, data: Array) -> None:
     """Fill in rates; data holds stiffness, omega2, damping, row; a fixed size lets loops unroll."""
     distance = 0.0
     for i in range(MODES):
@@ -26,6 +26,9 @@ def _rates(_time: float, state: Array, rates: Array, data: Array) -> None:
             - data[1 + i] * state[i]
             - data[1 + MODES + i] * state[MODES + i]
         )
+
+
+_rates: Any = numba.cfunc(lsoda_sig)(_fill)
 
 
 class NumbalsodaDop853:

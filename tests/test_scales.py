@@ -71,9 +71,9 @@ def test_a_structure_that_hardly_resists_rebounds_as_masses_do() -> None:
     thrown = bs.ModalState(velocity=[-1.0, 0.3, 0.1])
     problem = bs.Problem(basis, laws=[stop], initial=thrown, duration=0.2)
     times = np.linspace(0.0, 0.2, 50)
-    exact, followed = (
-        bs.simulate(problem, method=method, **options).sample("modal_displacement", times=times)
-        for method, options in (("exact", {}), ("dop853", {"rtol": 1e-12}))
+    exact = bs.simulate(problem).sample("modal_displacement", times=times)
+    followed = bs.simulate(problem, method="dop853", rtol=1e-12).sample(
+        "modal_displacement", times=times
     )
     np.testing.assert_allclose(exact, followed, rtol=0.0, atol=1e-11)
 

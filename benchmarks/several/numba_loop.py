@@ -1,7 +1,7 @@
 """A fixed-step loop: central difference compiled by numba, for any number of undamped stops."""
 
-from collections.abc import Callable
 from time import perf_counter
+from typing import Any
 
 import numba
 import numpy as np
@@ -48,7 +48,7 @@ class NumbaLoop:
     """It knows of a contact what it sees at its steps."""
 
     name = f"numba central difference, {STEPS_A_PERIOD} steps a period"
-    march: Callable[..., None] = staticmethod(numba.njit(_march))
+    march: Any = staticmethod(numba.njit(_march))
 
     def find(self, problem: SeveralStops) -> Contacts:
         """March over the run."""
