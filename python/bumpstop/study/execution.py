@@ -12,6 +12,7 @@ import numpy as np
 
 from bumpstop.arguments import count
 from bumpstop.errors import InputError
+from bumpstop.interrupts import interrupts_later
 from bumpstop.study.evaluation import FAILED, GOOD
 from bumpstop.study.pool import evaluated, usable_cores
 
@@ -93,7 +94,8 @@ def execute(
         crew = cluster.evaluated(study.recipe, study.files, chunks, study.task)
     with closing(crew):
         for task, kept in crew:
-            store.write(task.chunk, layout.columns(task.columns), kept)
+            with interrupts_later():
+                store.write(task.chunk, layout.columns(task.columns), kept)
             made += len(kept.status)
             failed += int(np.count_nonzero(kept.status == FAILED))
             if progress is not None:

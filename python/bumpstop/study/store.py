@@ -19,6 +19,7 @@ import numpy as np
 from bumpstop.errors import InputError
 from bumpstop.files import remove_leftovers, temporary_name
 from bumpstop.study.layout import Array, Layout, packed_message
+from bumpstop.study.zarr_thread import zarr_module
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -86,12 +87,10 @@ class ZarrStore:
     """
 
     def __init__(self, path: Path, layout: Layout, *, filled: bool) -> None:
-        import zarr
-
         self._path = path
         self._layout = layout
         with _said(path):
-            self._group = zarr.open_group(path, mode="r+")
+            self._group = zarr_module().open_group(path, mode="r+")
             self._arrays: dict[str, Any] = {name: self._group[name] for name in layout.arrays}
             # What is NaN throughout is written, too: a file that is not there has gone.
             for name, array in self._arrays.items():
@@ -189,12 +188,10 @@ def read_store(path: Path) -> tuple[dict[str, Any], dict[str, Array], Reader]:
 
 def _opened(path: Path) -> Any:
     _require_zarr()
-    import zarr
-
     if not path.is_dir():
         raise InputError("no such store", file=str(path), hint="check the path")
     try:
-        group = zarr.open_group(path, mode="r")
+        group = zarr_module().open_group(path, mode="r")
         _ = group.attrs[DEFINITION]
     except Exception as error:  # zarr raises many kinds
         what = "is not the store of a study"
@@ -209,13 +206,11 @@ def _described(array: Any) -> Array:
 
 def _make(path: Path, layout: Layout, definition: dict[str, Any]) -> None:
     """Make an empty store under another name, and rename it once it is whole."""
-    import zarr
-
     remove_leftovers(path)
     part = temporary_name(path)
     with _said(path, "make room, or name another folder"):
         path.parent.mkdir(parents=True, exist_ok=True)
-        group = zarr.open_group(part, mode="w", attributes={DEFINITION: definition})
+        group = zarr_module().open_group(part, mode="w", attributes={DEFINITION: definition})
         for name, array in layout.arrays.items():
             group.create_array(
                 name,
