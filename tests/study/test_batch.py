@@ -1,6 +1,7 @@
 """Batches: against closed forms, and to the bit against runs one by one."""
 
 import math
+import tracemalloc
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -170,6 +171,9 @@ def test_a_stop_too_stiff_for_the_run_fails_in_every_way(tmp_path: Path) -> None
     found = bs.batch(ball(), {"stops.wall.stiffness": [100.0, 1e30, 1e150]}, KEPT)
     assert found.failed.values.tolist() == [False, True, True]
     assert "tell no more than" in str(found.message.values[1])
+    beside = bs.batch(ball(), {"stops.wall.stiffness": [math.nan, 1e30]}, KEPT)
+    assert "not finite" in str(beside.message.values[0])
+    assert "tell no more than" in str(beside.message.values[1])
     bouncing = bs.load_study(written(tmp_path))
     force = {"force": bs.Output(quantity="peak_force", stop="spring", statistic="maximum")}
     study = bs.Study(bouncing.case, {"stops.spring.stiffness": [100.0, 1e30, 1e150]}, force)
@@ -180,6 +184,21 @@ def test_a_stop_too_stiff_for_the_run_fails_in_every_way(tmp_path: Path) -> None
     assert in_core._core is not None
     assert one.messages == other.messages
     assert one.status.tolist() == other.status.tolist() == [1, 2, 2]
+
+
+def test_room_beside_the_numbers_does_not_grow() -> None:
+    runs = 400_000
+    stiffness = np.linspace(1e3, 1e4, runs)
+    varied = {"stops.wall.stiffness": stiffness, "stops.wall.gap": np.full(runs, 1e9)}
+    kept = {"impacts": bs.Output(quantity="impacts")}
+    bs.batch(ball(), {key: values[:10] for key, values in varied.items()}, kept)
+    tracemalloc.start()  # of what the core gives, numpy tells nothing
+    try:
+        found = bs.batch(ball(), varied, kept)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most - found.failed.nbytes - found.message.nbytes < runs
 
 
 def test_progress_may_end_it() -> None:

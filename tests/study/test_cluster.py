@@ -3,8 +3,10 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -201,6 +203,24 @@ def test_a_dead_scheduler(
         (line,) = capsys.readouterr().err.splitlines()
         assert told in line
         assert not (tmp_path / "study.zarr").exists()
+
+
+def test_something_else_at_the_address(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cluster, "PATIENCE", 5.0)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def answer() -> None:
+            with server.accept()[0] as connection:
+                # A scheduler would take these for the lengths of what follows: 3 EiB.
+                connection.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+                connection.recv(1)
+
+        other = threading.Thread(target=answer)
+        other.start()
+        address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+        with pytest.raises(bs.InputError, match="scheduler: does not answer"):
+            cluster.Cluster(address)
+        other.join()
 
 
 def test_workers_that_would_make_other_runs(local: LocalCluster, tmp_path: Path) -> None:

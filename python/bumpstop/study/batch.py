@@ -143,10 +143,13 @@ def made(
     for key, values in columns.items():
         if key not in FACTORS:
             stop, number = _stop_number(key, plain)
-            stiff = values > most[stop] if number == "stiffness" else np.zeros(runs, dtype=bool)
-            told = f"{key}: the run's instants tell no more than {most[stop]:.2g} N/m"
-            refused |= {int(run): f"{told} (got {values[run]:g})" for run in np.flatnonzero(stiff)}
-            varied.append((stops[stop], number, np.where(stiff, np.nan, values)))
+            # Seen at once where all are soft enough, without an array of the runs' size.
+            if number == "stiffness" and not values.max() <= most[stop]:
+                stiff = values > most[stop]
+                told = f"{key}: the run's instants tell no more than {most[stop]:.2g} N/m"
+                refused |= {int(run): f"{told} (got {values[run]:g})" for run in stiff.nonzero()[0]}
+                values = np.where(stiff, np.nan, values)
+            varied.append((stops[stop], number, values))
     displacements, velocities = (
         columns.get(f"initial.{key}") for key in ("displacement", "velocity")
     )
@@ -267,5 +270,7 @@ def labelled(
     has_failed, messages = np.zeros(runs, dtype=bool), np.full(runs, "", dtype=object)
     for run, message in failed:
         has_failed[run], messages[run] = True, message
-    variables |= {"failed": ("run", has_failed), "message": ("run", messages)}
+    # As it is: xarray looks for times among objects in a copy of them.
+    told_why = xr.Variable("run", messages, fastpath=True)
+    variables |= {"failed": ("run", has_failed), "message": told_why}
     return xr.Dataset(variables, coordinates)

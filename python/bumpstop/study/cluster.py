@@ -286,6 +286,6 @@ def _connected(scheduler: Scheduler) -> Client:
             given = {"address": text}
     try:
         return Client(**given, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
+    except Exception as error:  # what something else at this address answers may be anything
         hint = "start 'dask scheduler', and give the address that it prints"
         raise InputError("does not answer", key="scheduler", value=scheduler, hint=hint) from error
