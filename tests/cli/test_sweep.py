@@ -71,6 +71,29 @@ def test_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out)["made"] == 0
 
 
+def test_what_each_parameter_does(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sampling = '[sampling]\nmethod = "one_at_a_time"\n[execution]'
+    study = STUDY.replace("[execution]", sampling).replace(', spacing = "log"', "")
+    path = written(tmp_path, study)
+    assert main(["sweep", str(path), "--workers", "1"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    # 3 m/s sqrt(k m), m = 2 kg, at 5, 50 and 95 % of 50 to 800 N/m
+    stiffness = np.array([87.5, 425.0, 762.5])
+    force = [f"{each:.4g}" for each in 3.0 * np.sqrt(2.0 * stiffness)]
+    assert ["output", "parameter", "low", "middle", "high"] in rows
+    assert ["force", "stops.spring.stiffness", *force] in rows
+    drawn = study.replace("one_at_a_time", "saltelli").replace('saltelli"', 'saltelli"\ncount = 8')
+    path = written(tmp_path, drawn.replace("impact = 1", "impact = 7"))
+    words = ["sweep", str(path), "--store", str(tmp_path / "drawn"), "--workers", "1", "--json"]
+    assert main(words) == 0
+    told = json.loads(capsys.readouterr().out)["sensitivities"]
+    # There are no seven impacts, and so no variance of when the last begins.
+    assert told["start"]["stops.spring.gap"] == {"alone": None, "with_others": None}
+    assert set(told) == {"force", "start"}
+    found = bs.open_study(tmp_path / "drawn")
+    assert told["force"]["stops.spring.stiffness"]["alone"] == found.force_first.values[0]
+
+
 def test_failures_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     all_wrong = STUDY.replace('"50 N/m"', "-2").replace("800", "-1").replace('"log"', '"linear"')
     assert main(["sweep", str(written(tmp_path, all_wrong)), "--workers", "1"]) == 3

@@ -257,6 +257,10 @@ STUDIES: list[tuple[dict[str, object], str]] = [
     ({GAP: [0.5], STIFFNESS: [100.0]}, "grid"),
     ({STIFFNESS: [-1.0, -2.0]}, "grid"),  # all fail
     ({GAP: [50.0, 60.0]}, "grid"),  # none hits
+    (WORDS | {GAP: [0.25, 0.5]}, "one_at_a_time"),
+    ({GAP: [50.0, 60.0]}, "one_at_a_time"),
+    (WORDS | {GAP: [0.25, 0.5]}, "saltelli"),
+    ({STIFFNESS: [-1.0, 2.0]}, "saltelli"),  # half of them fail
     ({GAP: [0.2, 0.4], STIFFNESS: [50.0, 100.0], "stops.spring.damping": [0.0, 1.0]}, "grid"),
 ]
 
@@ -267,7 +271,8 @@ def test_every_study_has_a_page(
 ) -> None:
     case = bs.load_case(written(tmp_path, case=CASE + "dt = 1e-3\n").parent / "case.toml")
     outputs = grid[0].outputs
-    study = bs.Study(case, parameters, outputs, sampling=bs.Sampling(sampling))
+    drawn = bs.Sampling(sampling, 8 if sampling == "saltelli" else None)
+    study = bs.Study(case, parameters, outputs, sampling=drawn)
     write_study(study, study.run(workers=1), tmp_path / "page.html", opened_by="bumpstop --open")
     page = (tmp_path / "page.html").read_text()
     assert all(name in page for name in (*parameters, *outputs))
@@ -282,6 +287,7 @@ def test_each_parameter_alone(grid: tuple[bs.Study, xr.Dataset]) -> None:
     np.testing.assert_allclose(swings.force.values, 3.0 * np.sqrt(2.0 * stiffness), rtol=1e-12)
     figure = bs.tornado_chart(swings, "force")
     assert figure.data[0].y == (GAP, STIFFNESS)
+    assert [list(bar.customdata) for bar in figure.data] == [[0, 3], [2, 5]]  # their runs
     low, high = (bar.base[1] + bar.x[1] for bar in figure.data)
     assert (low, high) == pytest.approx((3.0 * np.sqrt(300.0), 3.0 * np.sqrt(500.0)))
     with pytest.raises(bs.InputError, match=r"must be below 0\.5"):

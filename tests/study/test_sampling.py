@@ -94,6 +94,7 @@ def test_seeds(method: str) -> None:
             Sampling(),
             "makes 1e+12 runs, at most 20,000,000",
         ),
+        ({"a": UNIT}, Sampling("saltelli", 2**23), "count: makes 2.52e+07 runs, at most"),
         (
             {"a": Values([1]), "b": Values([1, 2])},
             Sampling("list"),
@@ -116,8 +117,11 @@ def test_what_does_not_fit_together(
         (("sobol", 100), "must be a power of two for Sobol's samples (got 100); take 128"),
         (("monte_carlo",), "count: is missing"),
         (("monte_carlo", 10**12), "count: makes 1e+12 runs, at most 20,000,000"),
-        (("grid", 10), "a grid has as many runs as its values make (got 10)"),
+        (("grid", 10), "grid makes as many runs as the parameters tell (got 10)"),
         (("sobol", 4, -1), "seed: must be 0 or more"),
+        (("saltelli", 100), "must be a power of two for Sobol's samples (got 100); take 128"),
+        (("sobol", 4, 0, 0.1), "share: tells low from high values, which one_at_a_time alone has"),
+        (("one_at_a_time", None, 0, 0.5), "share: must be below 0.5"),
     ],
 )
 def test_sampling_that_is_refused(given_words: tuple[Any, ...], told: str) -> None:

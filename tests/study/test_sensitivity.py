@@ -5,10 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import bumpstop as bs
+from bumpstop.study.indices import indices_of
 from bumpstop.study.sampling import Sampling, unit_samples
-from bumpstop.study.sensitivity import indices_of
 from tests.study.bouncing import written
 
 FORCE = bs.Output(quantity="largest_force", stop="spring")
@@ -59,6 +60,44 @@ def test_indices_of_a_case(case: bs.Case) -> None:
     assert found.parameter.values.tolist() == [STIFFNESS, MASS, GAP]
     assert found.force_first.values == pytest.approx([0.8, 0.2, 0.0], abs=0.05)
     assert found.force_total.values == pytest.approx([0.8, 0.2, 0.0], abs=0.05)
+
+
+def test_a_study_of_saltellis_design_tells_the_same_indices(case: bs.Case, tmp_path: Path) -> None:
+    heavy = bs.Distribution("normal", mean=2.0, standard_deviation=0.1)
+    scattered = {STIFFNESS: bs.Range(100.0, 300.0), MASS: heavy}
+    signal = bs.Output(quantity="gap", stop="spring", times=[0.1, 0.2])
+    study = bs.Study(
+        case, scattered, {"force": FORCE, "gap": signal}, sampling=bs.Sampling("saltelli", 16, 3)
+    )
+    found = study.run(tmp_path / "study.zarr", workers=2)
+    assert found.force.shape == (16 * 4,)
+    alone = bs.sobol_indices(case, scattered, {"force": FORCE}, count=16, seed=3, workers=1)
+    for part in ("force_first", "force_total"):
+        xr.testing.assert_identical(found[part], alone[part])
+    xr.testing.assert_identical(found, bs.open_study(tmp_path / "study.zarr"))
+    # The third block is the first sample with the stiffness of the second.
+    stiffness, mass = (found[key].values.reshape(4, 16) for key in (STIFFNESS, MASS))
+    assert np.array_equal(stiffness[2], stiffness[1])
+    assert np.array_equal(mass[2], mass[0])
+    with pytest.raises(bs.InputError, match="this name is taken"):
+        bs.Study(case, scattered, {"f": FORCE, "f_total": FORCE}, sampling=study.sampling)
+
+
+def test_each_parameter_alone_in_a_study(case: bs.Case, tmp_path: Path) -> None:
+    given = {STIFFNESS: bs.Range(100.0, 300.0), MASS: [1.0, 2.0, 3.0]}
+    sampling = bs.Sampling("one_at_a_time", share=0.25)
+    study = bs.Study(case, given, {"force": FORCE}, sampling=sampling)
+    found = study.run(tmp_path / "study.zarr", workers=1)
+    assert found.force.dims == ("parameter", "side")
+    assert found["value"].values.tolist() == [[150.0, 200.0, 250.0], [1.0, 2.0, 3.0]]
+    stiffness = np.array([[150.0, 200.0, 250.0], [200.0, 200.0, 200.0]])
+    mass = np.array([[2.0, 2.0, 2.0], [1.0, 2.0, 3.0]])
+    np.testing.assert_array_equal(found[STIFFNESS].values, stiffness)
+    np.testing.assert_array_equal(found[MASS].values, mass)
+    np.testing.assert_allclose(found.force.values, 3.0 * np.sqrt(stiffness * mass), rtol=1e-12)
+    xr.testing.assert_identical(found, bs.open_study(tmp_path / "study.zarr"))
+    with pytest.raises(bs.InputError, match="this name is taken"):
+        bs.Study(case, given, {"value": FORCE}, sampling=sampling)
 
 
 def test_indices_need_all_runs_and_single_numbers(case: bs.Case) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from bumpstop.arguments import count
 from bumpstop.cli.console import Table, print_error, print_json, print_line, print_table
 from bumpstop.cli.progress import runs_display
+from bumpstop.cli.sensitivity import Sensitivities, sensitivities, sensitivity_table
 from bumpstop.study.basins import SECTION, Attractor, classified
 from bumpstop.study.evaluation import FAILED
 from bumpstop.study.execution import Summary, execute, hired
@@ -131,6 +132,11 @@ class _Found:
         return {name: row[name] for name in self._study.parameters}
 
     @cached_property
+    def sensitivities(self) -> Sensitivities:
+        """What each parameter does to each output, where the runs were made to tell."""
+        return sensitivities(self._study, self._read)
+
+    @cached_property
     def attractors(self) -> tuple[Attractor, ...]:
         """The attractors that runs end on, where they are asked for."""
         basins = self._study.basins
@@ -156,6 +162,9 @@ def _print(title: str, summary: Summary, folder: Path, found: _Found) -> None:
     print_line(_told(summary))
     print_line()
     _print_outputs(found)
+    if found.sensitivities:
+        print_line()
+        print_table(sensitivity_table(found.sensitivities))
     _print_attractors(found)
     if summary.failed:
         print_line()
@@ -228,6 +237,7 @@ def _record(title: str, summary: Summary, folder: Path, found: _Found) -> dict[s
             name: {"units": units, **_extremes_record(found, name)}
             for name, units in found.units.items()
         },
+        **({"sensitivities": found.sensitivities} if found.sensitivities else {}),
         "attractors": [
             {
                 "runs": each.runs,

@@ -10,8 +10,10 @@ import numpy as np
 
 from bumpstop.study.basins import SECTION, Basins, Classes, classified
 from bumpstop.study.evaluation import FAILED
+from bumpstop.study.indices import PARTS, indices_of_runs
 from bumpstop.study.layout import Array, unpacked_message
 from bumpstop.study.parameters import recorded_parameter
+from bumpstop.study.sampling import SIDES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,11 +47,15 @@ def labelled(
     xarray.Dataset
         The outputs, whether a run ``failed``, and its ``message``; over the parameters of a
         grid, with the number of each ``run`` beside them, or over ``run`` with the parameters
-        beside it. What has not been run yet is NaN.
+        beside it. Of each parameter alone: over ``parameter`` and ``side``, with its ``value``.
+        Sobol's indices, where the runs are those that tell them, as ``NAME_first`` and
+        ``NAME_total`` over ``parameter``; NaN where a run has no such result. What has not been
+        run yet is NaN.
     """
     import xarray as xr
 
     names = list(definition["parameters"])
+    sampling, in_order = definition["sampling"], definition["slowest_first"]
     shaped = _Shape(_levels(definition))
     found: dict[str, Any] = {}
     coordinates: dict[str, Any] = dict(shaped.coordinates)
@@ -58,7 +64,7 @@ def labelled(
             continue
         if name in names:
             if name not in coordinates:
-                coordinates[name] = ("run", _worded(read(name), array.attributes))
+                coordinates[name] = shaped.placed(_worded(read(name), array.attributes), ())
             continue
         attributes = dict(array.attributes)
         if "times" in attributes:
@@ -66,7 +72,13 @@ def labelled(
             instants = np.array(attributes.pop("times"))
             told = {"units": "s", "long_name": "time"}
             coordinates[dimension] = (dimension, instants, told)
-        found[name] = (*shaped.placed(read(name), array.dimensions[1:]), attributes)
+        values = read(name)
+        found[name] = (*shaped.placed(values, array.dimensions[1:]), attributes)
+        if sampling["method"] == "saltelli" and values.ndim == 1:
+            coordinates["parameter"] = in_order
+            indices = indices_of_runs(values, sampling["count"])._asdict()
+            for part, told_part in PARTS.items():
+                found[f"{name}_{part}"] = ("parameter", indices[part], {"long_name": told_part})
     failed = read("status") == FAILED
     found["failed"] = shaped.placed(failed, ())
     found["message"] = shaped.placed(_messages(failed, read), ())
@@ -75,6 +87,9 @@ def labelled(
         found["attractor"] = (*shaped.placed(classes.numbers, ()), _ATTRACTOR)
         found |= _attractors(classes)
     dataset = xr.Dataset(found, coordinates, attrs={"case": definition["title"]})
+    if sampling["method"] == "one_at_a_time":
+        own = [dataset[name].values[at] for at, name in enumerate(in_order)]
+        return dataset.assign(value=(shaped.names, np.array(own, dtype=object)))
     return dataset.transpose(*names, ...) if shaped.names else dataset
 
 
@@ -105,7 +120,9 @@ def _attractors(classes: Classes) -> dict[str, Any]:
 
 
 def _levels(definition: Mapping[str, Any]) -> dict[str, Sequence[Any]]:
-    """Return the values of each parameter on a grid, the slowest first; none without a grid."""
+    """Return what runs on a grid lie over, the slowest first; nothing without a grid."""
+    if definition["sampling"]["method"] == "one_at_a_time":
+        return {"parameter": definition["slowest_first"], "side": SIDES}
     if definition["sampling"]["method"] != "grid":
         return {}
     records = definition["parameters"]

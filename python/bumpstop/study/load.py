@@ -69,7 +69,7 @@ def _loaded(file: Path, tables: StudyFile) -> LoadedStudy:
     case = load_case(file.parent / tables.case)
     with keyed("sampling"):
         table = tables.sampling
-        sampling = Sampling() if table is None else Sampling(table.method, table.count, table.seed)
+        sampling = Sampling() if table is None else Sampling(**dict(table))
     with keyed(renamed={"chunk": "execution.chunk"}):
         study = Study(
             case,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, count, one_of
+from bumpstop.arguments import FloatArray, count, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.io.case.keys import keyed
 from bumpstop.study.parameters import MOST_RUNS, Level, Parameter
@@ -17,10 +17,15 @@ from bumpstop.study.parameters import MOST_RUNS, Level, Parameter
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["SAMPLINGS", "Runs", "Sampling", "planned", "unit_samples"]
+__all__ = ["DRAWN", "SAMPLINGS", "SIDES", "Runs", "Sampling", "planned", "unit_samples"]
 
-DRAWN = ("latin_hypercube", "sobol", "monte_carlo")
-SAMPLINGS = ("grid", "list", *DRAWN)
+DRAWN = ("latin_hypercube", "sobol", "monte_carlo", "saltelli")
+BY_SHARES = (*DRAWN, "one_at_a_time")
+"""Methods that ask parameters for quantiles."""
+SAMPLINGS = ("grid", "list", *BY_SHARES)
+SIDES = ("low", "middle", "high")
+"""Runs of each parameter that goes alone."""
+_TAIL = 0.05
 
 
 @dataclass(frozen=True)
@@ -33,11 +38,19 @@ class Sampling:
         ``"grid"``: each value with each of the others'. ``"list"``: the first values
         together, then the second ones, ... ``"latin_hypercube"`` (M. D. McKay, R. J. Beckman,
         W. J. Conover, *Technometrics* 21, 1979), ``"sobol"`` (scrambled; A. B. Owen, *Journal
-        of Complexity* 14, 1998) and ``"monte_carlo"`` draw samples.
+        of Complexity* 14, 1998) and ``"monte_carlo"`` draw samples. ``"saltelli"`` (A. Saltelli,
+        *Computer Physics Communications* 145, 2002) draws two of ``"sobol"``, and for each
+        parameter makes the first once more with that parameter taken from the second, which
+        tells Sobol's indices. ``"one_at_a_time"``: for each parameter, a run where it is low, one
+        where it is in its middle and one where it is high; the others are in their middle.
     count
-        How many samples are drawn; a power of two for ``"sobol"``.
+        How many samples are drawn; a power of two for ``"sobol"`` and ``"saltelli"``, which
+        makes ``count (2 + parameters)`` runs.
     seed
         Another seed draws other samples, the same one the same.
+    share
+        For ``"one_at_a_time"``: low is the value below which this share of the parameter lies,
+        high the one above which as much lies; 0.05 where left out.
 
     Raises
     ------
@@ -48,19 +61,21 @@ class Sampling:
     method: str = "grid"
     count: int | None = None
     seed: int = 0
+    share: float | None = None
 
     def __post_init__(self) -> None:
         one_of("method", self.method, SAMPLINGS)
         count("seed", self.seed, least=0)
+        self._check_share()
         if self.method not in DRAWN:
             if self.count is not None:
-                what = f"a {self.method} has as many runs as its values make"
+                what = f"{self.method} makes as many runs as the parameters tell"
                 raise InputError(what, key="count", value=self.count)
             return
         if self.count is None:
             raise InputError("is missing", key="count", hint="say how many samples")
         _check_number("count", count("count", self.count))
-        if self.method == "sobol" and self.count & (self.count - 1):
+        if self.method in _POWERS_OF_TWO and self.count & (self.count - 1):
             more = 2 ** math.ceil(math.log2(self.count))
             what = "must be a power of two for Sobol's samples"
             raise InputError(what, key="count", value=self.count, hint=f"take {more}")
@@ -68,8 +83,28 @@ class Sampling:
     @property
     def record(self) -> dict[str, Any]:
         """What it is, for a study to be known again by."""
-        drawn = self.method in DRAWN
-        return {"method": self.method} | ({"count": self.count, "seed": self.seed} if drawn else {})
+        if self.method in DRAWN:
+            return {"method": self.method, "count": self.count, "seed": self.seed}
+        if self.method == "one_at_a_time":
+            return {"method": self.method, "share": self.tail}
+        return {"method": self.method}
+
+    @property
+    def tail(self) -> float:
+        """The share of a parameter below its low value."""
+        return _TAIL if self.share is None else self.share
+
+    def _check_share(self) -> None:
+        if self.share is None:
+            return
+        if self.method != "one_at_a_time":
+            what = "tells low from high values, which one_at_a_time alone has"
+            raise InputError(what, key="share", value=self.share)
+        if positive("share", self.share) >= 0.5:
+            raise InputError("must be below 0.5", key="share", value=self.share)
+
+
+_POWERS_OF_TWO = ("sobol", "saltelli")
 
 
 class Runs:
@@ -132,7 +167,9 @@ def planned(
         If the parameters have no values of the kind that the sampling needs, or make too many
         runs.
     """
-    if sampling.method in DRAWN:
+    if sampling.method in BY_SHARES:
+        if sampling.method == "saltelli":
+            _check_number("count", (sampling.count or 0) * (2 + len(parameters)))
         shares = unit_samples(sampling, len(parameters))
         drawn = zip(parameters.items(), shares.T, strict=True)
         return Runs({name: each.quantiles(column) for (name, each), column in drawn}, None)
@@ -147,9 +184,14 @@ def planned(
 
 
 def unit_samples(sampling: Sampling, dimensions: int) -> FloatArray:
-    """Return samples that are drawn of the unit cube, (run, dimension)."""
+    """Return samples of the unit cube, (run, dimension), as a method that takes shares has them."""
     from scipy.stats import qmc
 
+    if sampling.method == "saltelli":
+        pairs = unit_samples(Sampling("sobol", sampling.count, sampling.seed), 2 * dimensions)
+        return _mixed(*np.split(pairs, 2, axis=1))
+    if sampling.method == "one_at_a_time":
+        return _each_alone(dimensions, sampling.tail)
     number = sampling.count or 0
     generator = np.random.default_rng(sampling.seed)
     if sampling.method == "monte_carlo":
@@ -157,6 +199,24 @@ def unit_samples(sampling: Sampling, dimensions: int) -> FloatArray:
     kind = qmc.Sobol if sampling.method == "sobol" else qmc.LatinHypercube
     shares: FloatArray = kind(dimensions, rng=generator).random(number)
     return shares
+
+
+def _mixed(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Return two samples, and the first with each dimension in turn taken from the second."""
+    blocks = [one, other]
+    for dimension in range(one.shape[1]):
+        block = one.copy()
+        block[:, dimension] = other[:, dimension]
+        blocks.append(block)
+    return np.concatenate(blocks)
+
+
+def _each_alone(dimensions: int, tail: float) -> FloatArray:
+    """Return middles, but for one dimension in turn that is low, in its middle and high."""
+    shares = np.full((dimensions, len(SIDES), dimensions), 0.5)
+    own = np.arange(dimensions)
+    shares[own, :, own] = tail, 0.5, 1.0 - tail
+    return shares.reshape(-1, dimensions)
 
 
 def _levels(name: str, parameter: Parameter) -> list[Level]:

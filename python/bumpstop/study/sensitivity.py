@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError, InputError
+from bumpstop.study.indices import PARTS
 from bumpstop.study.outputs import Output
-from bumpstop.study.parameters import Parameter
-from bumpstop.study.sampling import Sampling, unit_samples
+from bumpstop.study.sampling import Sampling
 from bumpstop.study.study import Study
 
 if TYPE_CHECKING:
@@ -19,16 +18,7 @@ if TYPE_CHECKING:
 
     from bumpstop.io.case import Case
 
-__all__ = ["Indices", "indices_of", "sobol_indices"]
-
-
-class Indices(NamedTuple):
-    """Sobol's indices of one result, (parameter,)."""
-
-    first: FloatArray
-    """The part of the variance that each parameter makes alone."""
-    total: FloatArray
-    """The part that it makes alone and together with others."""
+__all__ = ["sobol_indices"]
 
 
 def sobol_indices(
@@ -43,8 +33,8 @@ def sobol_indices(
 ) -> xr.Dataset:
     """Return which parts of the variance of results come from which parameters.
 
-    Two samples of all parameters are drawn (halves of one of Sobol's), and for each parameter one
-    more, in which it alone is that of the second: ``count (2 + parameters)`` runs.
+    The runs are those of a study whose `Sampling` is ``"saltelli"``: ``count (2 + parameters)``.
+    Such a study tells the same indices, and may have a store or a scheduler.
 
     Parameters
     ----------
@@ -76,66 +66,19 @@ def sobol_indices(
     A. Saltelli et al., *Computer Physics Communications* 181 (2010) 259, for the first-order
     indices; M. J. W. Jansen, *Computer Physics Communications* 117 (1999) 35, for the total ones.
     """
-    import xarray as xr
-
     for name, output in outputs.items():
         if output.shape:
             raise InputError("must be a single number", key=f"outputs.{name}.times")
-    sampling = Sampling("sobol", count, seed)
-    varied = Study(case, parameters, outputs, sampling=sampling, variant=variant).varied
-    study = Study(
-        case,
-        _columns(varied, sampling),
-        outputs,
-        sampling=Sampling("list"),
-        variant=variant,
-    )
+    sampling = Sampling("saltelli", count, seed)
+    study = Study(case, parameters, outputs, sampling=sampling, variant=variant)
     results = study.run(workers=workers)
     if results.failed.any():
         message = next(filter(None, results.message.values))
         raise ComputationError(f"{int(results.failed.sum())} runs failed: {message}")
-    found: dict[str, Any] = {}
     for name in outputs:
-        values = results[name].values
-        if np.isnan(values).any():
-            message = f"{int(np.isnan(values).sum())} of {len(values)} runs have no {name}"
+        missing = int(np.isnan(results[name].values).sum())
+        if missing:
+            message = f"{missing} of {study.runs.count} runs have no {name}"
             raise ComputationError(f"{message}: variances need all")
-        blocks = values.reshape(-1, count)
-        first, total = indices_of(blocks[0], blocks[1], blocks[2:])
-        found[f"{name}_first"] = ("parameter", first, {"long_name": "first-order index"})
-        found[f"{name}_total"] = ("parameter", total, {"long_name": "total index"})
-    return xr.Dataset(found, coords={"parameter": list(parameters)})
-
-
-def indices_of(one: FloatArray, other: FloatArray, mixed: FloatArray) -> Indices:
-    """Return the indices of a result from its values.
-
-    Parameters
-    ----------
-    one, other
-        Its values for two samples, (run,).
-    mixed
-        Its values for the first sample with one parameter taken from the second, (parameter,
-        run).
-    """
-    both = np.concatenate([one, other])
-    variance = both.var()
-    if variance == 0.0:
-        return Indices(*np.full((2, len(mixed)), np.nan))
-    # Less its mean, which the estimator does not need but loses digits by.
-    centred = other - both.mean()
-    first = (centred * (mixed - one)).mean(axis=1) / variance
-    total = ((one - mixed) ** 2).mean(axis=1) / (2.0 * variance)
-    return Indices(first, total)
-
-
-def _columns(parameters: Mapping[str, Parameter], sampling: Sampling) -> dict[str, Sequence[Any]]:
-    """Return the values of each parameter in all runs, block after block."""
-    names = list(parameters)
-    one, other = np.split(unit_samples(sampling, 2 * len(names)), 2, axis=1)
-    columns = {}
-    for number, name in enumerate(names):
-        blocks = [one[:, number], other[:, number], *(one[:, number] for _ in names)]
-        blocks[2 + number] = other[:, number]
-        columns[name] = parameters[name].quantiles(np.concatenate(blocks)).tolist()
-    return columns
+    indices: xr.Dataset = results[[f"{name}_{part}" for name in outputs for part in PARTS]]
+    return indices

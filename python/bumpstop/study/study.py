@@ -23,6 +23,7 @@ from bumpstop.io.units import WRONG_UNIT
 from bumpstop.study.basins import Basins
 from bumpstop.study.evaluation import Recipe
 from bumpstop.study.execution import Progress, execute, hired
+from bumpstop.study.indices import PARTS
 from bumpstop.study.layout import Layout
 from bumpstop.study.outputs import Output
 from bumpstop.study.parameters import Parameter, as_parameter
@@ -289,6 +290,14 @@ class Study:
         with keyed("basins"):
             return self.basins.outputs(problem.duration)
 
+    def _told_beside(self) -> Iterator[str]:
+        """Yield names that the results get from the way of sampling."""
+        if self.sampling.method == "saltelli":
+            yield "parameter"
+            yield from (f"{key}_{part}" for key in self.outputs for part in PARTS)
+        if self.sampling.method == "one_at_a_time":
+            yield from ("parameter", "side", "value")
+
     def _check_outputs(self) -> None:
         if not self.outputs:
             hint = "say what to keep of each run"
@@ -296,7 +305,7 @@ class Study:
         problem = self.case.problems.get(str(self.variant))
         for key, output in self.outputs.items():
             name("outputs", key)
-            if key in _TAKEN or key in self.parameters:
+            if key in {*_TAKEN, *self.parameters, *self._told_beside()}:
                 raise InputError("this name is taken", key="outputs", value=key)
             if not isinstance(output, Output):
                 raise InputError("must be an Output", key=f"outputs.{key}", value=output)

@@ -103,13 +103,21 @@ class SamplingTable(Table):
     method: Annotated[str, choice(*SAMPLINGS)] = Field(
         default="grid",
         description="Each value with each of the others (grid), the n-th values together "
-        "(list), or samples that are drawn",
+        "(list), samples that are drawn, for Sobol's indices among them (saltelli), or each "
+        "parameter low and high while the others are in their middle (one_at_a_time)",
     )
     count: Count | None = Field(
-        default=None, description="How many samples are drawn; a power of two for sobol"
+        default=None,
+        description="How many samples are drawn; a power of two for sobol and saltelli, which "
+        "makes count times (2 + parameters) runs",
     )
     seed: CountFromZero = Field(
         default=0, description="Another seed draws other samples, the same one the same"
+    )
+    share: PositiveNumber | None = Field(
+        default=None,
+        description="For one_at_a_time: low is the value below which this share of a parameter "
+        "lies, high the one above which as much lies; 0.05 where left out",
     )
 
 

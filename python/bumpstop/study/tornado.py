@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from bumpstop.arguments import positive
 from bumpstop.errors import InputError
 from bumpstop.study.outputs import Output
 from bumpstop.study.sampling import Sampling
@@ -31,6 +28,9 @@ def one_at_a_time(
     workers: int | None = None,
 ) -> xr.Dataset:
     """Return results where one parameter is low or high, and the others are in their middle.
+
+    The runs are those of a study whose `Sampling` is ``"one_at_a_time"``, which may have a store
+    or a scheduler.
 
     Parameters
     ----------
@@ -66,33 +66,9 @@ def one_at_a_time(
     >>> found.force.dims, bool((found.force.sel(side="low") < found.force.sel(side="high"))[1])
     (('parameter', 'side'), True)
     """
-    import xarray as xr
-
-    if positive("share", share) >= 0.5:
-        raise InputError("must be below 0.5", key="share", value=share)
     for name, output in outputs.items():
         if output.shape:
             raise InputError("must be a single number", key=f"outputs.{name}.times")
-    drawn = Sampling("monte_carlo", 1)
-    varied = Study(case, parameters, outputs, sampling=drawn, variant=variant).varied
-    shares = np.array([share, 0.5, 1.0 - share])
-    levels = {name: each.quantiles(shares).tolist() for name, each in varied.items()}
-    columns = {
-        name: [
-            low if at == 3 * own else high if at == 3 * own + 2 else middle
-            for at in range(3 * len(levels))
-        ]
-        for own, (name, (low, middle, high)) in enumerate(levels.items())
-    }
-    study = Study(case, columns, outputs, sampling=Sampling("list"), variant=variant)
-    results = study.run(workers=workers)
-    dims = ("parameter", "side")
-    found = {
-        name: (dims, results[name].values.reshape(-1, 3), results[name].attrs)
-        for name in (*outputs, "failed")
-    }
-    values = np.array([*levels.values()], dtype=object)
-    sides = ["low", "middle", "high"]
-    return xr.Dataset(
-        {**found, "value": (dims, values)}, coords={"parameter": list(levels), "side": sides}
-    )
+    sampling = Sampling("one_at_a_time", share=share)
+    study = Study(case, parameters, outputs, sampling=sampling, variant=variant)
+    return study.run(workers=workers)

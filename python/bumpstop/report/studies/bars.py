@@ -12,7 +12,7 @@ from bumpstop.report.figures import Figure, as_plotly
 from bumpstop.report.palette import LIGHT
 from bumpstop.report.plotting import Axis, layout_of
 from bumpstop.report.scales import Scale
-from bumpstop.report.studies.axes import output_axis, parameters_of, required
+from bumpstop.report.studies.axes import output_axis, parameters_of, required, run_numbers
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -83,7 +83,8 @@ def sobol_figure(indices: xr.Dataset, output: str) -> Figure:
 
 def tornado_figure(swings: xr.Dataset, output: str) -> Figure:
     """Return the figure that `tornado_chart` draws, as a plain dict."""
-    known = [str(name) for name in swings.data_vars if name not in ("failed", "value")]
+    beside = ("failed", "message", "value")
+    known = [str(name) for name in swings.data_vars if name not in beside]
     if output not in known:
         hint = did_you_mean(output, known)
         raise InputError("no such result", key="output", value=output, hint=hint)
@@ -93,15 +94,15 @@ def tornado_figure(swings: xr.Dataset, output: str) -> Figure:
     reach = np.nanmax(np.abs(np.stack([low, high]) - middle), axis=0, initial=0.0)
     order = np.argsort(reach, kind="stable")
     names = [str(swings.parameter.values[at]) for at in order]
-    values = swings["value"].values
+    values, runs = swings["value"].values, run_numbers(swings).values
     bars = []
     for name, ends, column, role in (("low", low, 0, "kinetic"), ("high", high, 2, "contact")):
         bar = _bars(names, (ends - middle)[order], middle[order], name, role)
-        bar["customdata"] = [[str(_short(values[at, column])), float(ends[at])] for at in order]
-        bar["hovertemplate"] = (
-            f"%{{y}} = %{{customdata[0]}}<br>%{{customdata[1]:.5~g}} {axis.scale.unit}"
-            "<extra></extra>"
-        )
+        bar["customdata"] = runs[order, column]
+        bar["hovertext"] = [
+            f"{_short(values[at, column])}<br>{ends[at]:.5g} {axis.scale.unit}" for at in order
+        ]
+        bar["hovertemplate"] = "%{y} = %{hovertext}<br>run %{customdata}<extra></extra>"
         bars.append(bar)
     words = "One parameter low or high, the others in their middle"
     layout = layout_of(f"What moves {output}", _NONE, _NONE, words)

@@ -11,7 +11,7 @@ from bumpstop import __version__
 from bumpstop.report.palette import DARK, LIGHT
 from bumpstop.report.scales import scale_for, significant
 from bumpstop.report.studies.axes import parameters_of, run_numbers
-from bumpstop.report.studies.bars import shares_figure
+from bumpstop.report.studies.bars import shares_figure, sobol_figure, tornado_figure
 from bumpstop.report.studies.grids import basin_figure, curve_figure, heat_figure
 from bumpstop.report.studies.points import histogram_figure, over_time_figure, scatter_figure
 from bumpstop.report.variant import caption, untitled
@@ -89,6 +89,8 @@ def _figures(study: Study, results: xr.Dataset, outputs: Sequence[str]) -> Itera
             continue
         if study.outputs[name].shape:
             yield from _over_times(results, name)
+        elif study.sampling.method == "one_at_a_time":
+            yield tornado_figure(results, name)
         else:
             yield from _of_numbers(results, name)
 
@@ -109,7 +111,9 @@ def _of_numbers(results: xr.Dataset, name: str) -> Iterator[Figure]:
         yield histogram_figure(results, name)
         for parameter in parameters[:MOST_PARAMETERS]:
             yield scatter_figure(results, name, parameter)
-    if len(parameters) > 1 and results.failed.size >= LEAST_FOR_SHARES:
+    if f"{name}_total" in results:
+        yield sobol_figure(results, name)
+    elif len(parameters) > 1 and results.failed.size >= LEAST_FOR_SHARES:
         yield shares_figure(results, name)
 
 
