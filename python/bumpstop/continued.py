@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bumpstop.response import Response
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["continued"]
+__all__ = ["continued", "end_state", "started_from"]
 
 _FREE = ("open", "released")
 _FORGETFUL = (
@@ -98,6 +98,25 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
         duration=positive("duration", duration),
         sample=None,
     )
+
+
+def end_state(response: Response) -> FloatArray:
+    """Return displacement and velocity of the modes at the end of a run, (2, U).
+
+    Raises
+    ------
+    InputError
+        If another run cannot go on from there; see `continued`.
+    """
+    initial = continued(response, duration=response.problem.duration).initial
+    assert isinstance(initial, _InMotion)
+    return np.array([initial.displacement, initial.velocity])
+
+
+def started_from(problem: Problem, state: FloatArray) -> Problem:
+    """Return a problem, its loads from its own t = 0 on, that starts in an `end_state`."""
+    displacement, velocity = state
+    return replace(problem, initial=_InMotion(displacement=displacement, velocity=velocity))
 
 
 def refuse_memory(law: Law) -> None:

@@ -9,7 +9,7 @@ from bumpstop.cli.solve import Stepping
 from bumpstop.cli.staging import check_writable
 from bumpstop.io.case.keys import keyed
 from bumpstop.study.load import read_study
-from bumpstop.study.single import check_run, write_case
+from bumpstop.study.single import checked_start, write_case
 
 __all__ = ["open_command"]
 
@@ -25,9 +25,9 @@ def open_command(path: Path, run: int, *, store: Path | None, json: bool) -> int
     beside = store or loaded.store
     folder = beside.with_name(f"{beside.stem}-run-{run}")
     with keyed(renamed={"run": "--open", "--out": "--open"}):
-        check_run(loaded.study, run)
+        checked_start(loaded.study, run, beside)
         check_writable(folder, [CASE])
     folder.mkdir(parents=True, exist_ok=True)
-    case = write_case(loaded.study, run, folder / CASE)
+    case = write_case(loaded.study, run, folder / CASE, store=beside)
     stepping = Stepping(None, None, None)
     return run_command(case, stepping=stepping, out=folder, export=None, json=json, report=True)

@@ -11,7 +11,7 @@ import numpy as np
 from bumpstop.study.basins import SECTION, Basins, Classes, classified
 from bumpstop.study.evaluation import FAILED
 from bumpstop.study.indices import PARTS, indices_of_runs
-from bumpstop.study.layout import Array, unpacked_message
+from bumpstop.study.layout import STATE, Array, unpacked_message
 from bumpstop.study.parameters import recorded_parameter
 from bumpstop.study.sampling import SIDES
 
@@ -47,24 +47,25 @@ def labelled(
     xarray.Dataset
         The outputs, whether a run ``failed``, and its ``message``; over the parameters of a
         grid, with the number of each ``run`` beside them, or over ``run`` with the parameters
-        beside it. Of each parameter alone: over ``parameter`` and ``side``, with its ``value``.
-        Sobol's indices, where the runs are those that tell them, as ``NAME_first`` and
-        ``NAME_total`` over ``parameter``; NaN where a run has no such result. What has not been
-        run yet is NaN.
+        beside it. Of runs that follow one another: over ``way`` and ``run``. Of each parameter
+        alone: over ``parameter`` and ``side``, with its ``value``. Sobol's indices,
+        where the runs are those that tell them, as ``NAME_first`` and ``NAME_total`` over
+        ``parameter``; NaN where a run has no such result. What has not been run yet is NaN.
     """
     import xarray as xr
 
     names = list(definition["parameters"])
     sampling, in_order = definition["sampling"], definition["slowest_first"]
-    shaped = _Shape(_levels(definition))
+    follows = sampling["method"] == "continuation"
+    shaped = _Ways(arrays["status"].shape[0]) if follows else _Shape(_levels(definition))
     found: dict[str, Any] = {}
     coordinates: dict[str, Any] = dict(shaped.coordinates)
     for name, array in arrays.items():
-        if name in _OWN:
+        if name in _OWN or (follows and name in STATE):
             continue
         if name in names:
             if name not in coordinates:
-                coordinates[name] = shaped.placed(_worded(read(name), array.attributes), ())
+                coordinates[name] = shaped.beside(_worded(read(name), array.attributes))
             continue
         attributes = dict(array.attributes)
         if "times" in attributes:
@@ -149,6 +150,29 @@ class _Shape:
         if not self.names:
             return ("run", *more), values
         return (*self.names, *more), values.reshape(*self._sizes, *values.shape[1:])
+
+    def beside(self, values: NDArray[Any]) -> tuple[tuple[str, ...], NDArray[Any]]:
+        """Return values of a parameter with the names of their dimensions."""
+        return self.placed(values, ())
+
+
+class _Ways(_Shape):
+    """A way up and one down through the same values: both over these as they go up."""
+
+    def __init__(self, runs: int) -> None:
+        super().__init__({})
+        self.coordinates = {"way": ["up", "down"], "run_number": self.placed(np.arange(runs), ())}
+
+    def placed(
+        self, values: NDArray[Any], more: Sequence[str]
+    ) -> tuple[tuple[str, ...], NDArray[Any]]:
+        """Return values over ways and runs."""
+        up, down = np.split(values, 2)
+        return ("way", "run", *more), np.stack([up, down[::-1]])
+
+    def beside(self, values: NDArray[Any]) -> tuple[tuple[str, ...], NDArray[Any]]:
+        """Return values over the runs of the way up."""
+        return ("run",), values[: len(values) // 2]
 
 
 def _as_coordinate(levels: Sequence[Any]) -> NDArray[Any]:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.continued import end_state, started_from
 from bumpstop.errors import BumpstopError, InputError, ModellingWarning
 from bumpstop.io.case.build import Builder
 from bumpstop.io.case.build.initial import built_initial
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
     from bumpstop.problem import Problem
     from bumpstop.response import Response
 
-__all__ = ["FAILED", "GOOD", "Evaluator", "Kept", "Recipe", "simulated"]
+__all__ = ["FAILED", "GOOD", "Evaluator", "Kept", "Recipe", "simulated", "told_failure"]
 
 GOOD = 1
 FAILED = 2
@@ -152,7 +153,7 @@ class Evaluator:
             try:
                 values = self._values({name: column[run] for name, column in columns.items()})
             except Exception as error:  # also a mistake of ours: the other runs go on
-                found.messages[run] = _told(error)
+                found.messages[run] = told_failure(error)
                 continue
             for name, value in values.items():
                 found.values[name][run] = value
@@ -199,6 +200,34 @@ class Evaluator:
         tables = self._base.replaced(**{key: getattr(changed, key) for key in self._swept})
         return (*self._builder.variant(tables), tables)
 
+    def followed(
+        self, changes: Mapping[str, Level], state: FloatArray
+    ) -> tuple[dict[str, float | FloatArray], FloatArray]:
+        """Make a run from a state; return what is kept of it, and the state in which it ends.
+
+        Parameters
+        ----------
+        changes
+            Values of the parameters.
+        state
+            Displacement and velocity of the modes, (2, U); NaN to start as the case does.
+
+        Raises
+        ------
+        BumpstopError
+            If the run fails, or another cannot go on from its end; see `end_state`.
+        """
+        with warnings.catch_warnings(), np.errstate(over="raise", invalid="raise", divide="raise"):
+            warnings.simplefilter("ignore", ModellingWarning)
+            _, problem, tables = self.built(changes)
+            assert problem is not None
+            assert tables.run is not None
+            if not np.isnan(state).any():
+                problem = started_from(problem, state)
+            response = simulated(problem, tables.run)
+            values = {name: output.value(response) for name, output in self._recipe.outputs.items()}
+            return values, end_state(response)
+
     def _values(self, changes: Mapping[str, Level]) -> dict[str, float | FloatArray]:
         with np.errstate(over="raise", invalid="raise", divide="raise"):
             basis, problem, tables = self.built(changes)
@@ -215,7 +244,7 @@ def simulated(problem: Problem, run: RunTable) -> Response:
     return simulate(problem, method, **usable_options(method, options))
 
 
-def _told(error: Exception) -> str:
+def told_failure(error: Exception) -> str:
     """Return in a line why a run failed."""
     if isinstance(error, InputError):
         return str(InputError(error.what, key=error.key, value=error.value, hint=error.hint))

@@ -13,6 +13,7 @@ import numpy as np
 from bumpstop.arguments import count
 from bumpstop.errors import InputError
 from bumpstop.interrupts import interrupts_later
+from bumpstop.study.chain import chained
 from bumpstop.study.evaluation import FAILED, GOOD
 from bumpstop.study.pool import evaluated, usable_cores
 
@@ -88,7 +89,12 @@ def execute(
     made = failed = 0
     processes = usable_cores() if workers is None else count("workers", workers)
     processes = max(1, min(processes, len(chunks)))
-    if cluster is None:
+    if study.follows:
+        if cluster is not None:
+            what = "is of no use where each run waits for the one before it"
+            raise InputError(what, key="scheduler", hint="leave it out")
+        crew, processes = chained(study, store.read, chunks), 1
+    elif cluster is None:
         crew = evaluated(study.recipe, chunks, study.task, processes)
     else:
         crew = cluster.evaluated(study.recipe, study.files, chunks, study.task)

@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
     from bumpstop.study.sampling import Runs
 
-__all__ = ["Array", "Layout", "packed_message", "unpacked_message"]
+__all__ = ["STATE", "Array", "Layout", "packed_message", "unpacked_message"]
+
+STATE = ("end_displacement", "end_velocity")
+"""The state of the modes at the end of each run, where the next one starts in it."""
 
 LONGEST_MESSAGE = 240
 """Bytes of the message of a failed run."""
@@ -54,9 +57,17 @@ class Layout:
     chunk
         Runs in a chunk; where left out a 64th of them, and 1024 at most. It does not depend
         on who makes the runs, so that a store has the same files whoever does.
+    modes
+        How many numbers the state of a run has, where the next one starts in it.
     """
 
-    def __init__(self, runs: Runs, outputs: Mapping[str, Output], chunk: int | None = None) -> None:
+    def __init__(
+        self,
+        runs: Runs,
+        outputs: Mapping[str, Output],
+        chunk: int | None = None,
+        modes: int | None = None,
+    ) -> None:
         self.count = runs.count
         self.chunk = chunk or max(1, min(_MOST_IN_CHUNK, runs.count // _CHUNKS))
         self.chunks = -(-self.count // self.chunk)
@@ -64,6 +75,7 @@ class Layout:
         self.arrays = {
             **{name: self._parameter(runs, name) for name in runs.names},
             **{name: self._output(name, output) for name, output in outputs.items()},
+            **({} if modes is None else dict.fromkeys(STATE, self._state(modes))),
             "message": Array((self.count, LONGEST_MESSAGE), "uint8", 0, ("run", "character")),
             "status": Array(
                 (self.count,), "uint8", 0, ("run",), {"meaning": "0 not made, 1 good, 2 failed"}
@@ -92,6 +104,9 @@ class Layout:
         if np.asarray(levels).dtype.kind in "iu":
             return Array((self.count,), "int64", -1, ("run",))
         return Array((self.count,), "float64", np.nan, ("run",))
+
+    def _state(self, modes: int) -> Array:
+        return Array((self.count, modes), "float64", np.nan, ("run", "mode"))
 
     def _output(self, name: str, output: Output) -> Array:
         shape = (self.count, *output.shape)

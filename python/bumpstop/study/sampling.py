@@ -22,7 +22,7 @@ __all__ = ["DRAWN", "SAMPLINGS", "SIDES", "Runs", "Sampling", "planned", "unit_s
 DRAWN = ("latin_hypercube", "sobol", "monte_carlo", "saltelli")
 BY_SHARES = (*DRAWN, "one_at_a_time")
 """Methods that ask parameters for quantiles."""
-SAMPLINGS = ("grid", "list", *BY_SHARES)
+SAMPLINGS = ("grid", "list", "continuation", *BY_SHARES)
 SIDES = ("low", "middle", "high")
 """Runs of each parameter that goes alone."""
 _TAIL = 0.05
@@ -36,7 +36,9 @@ class Sampling:
     ----------
     method
         ``"grid"``: each value with each of the others'. ``"list"``: the first values
-        together, then the second ones, ... ``"latin_hypercube"`` (M. D. McKay, R. J. Beckman,
+        together, then the second ones, ... ``"continuation"``: so, too, first up and then down
+        from the last values to the first, each run from the state in which the one before it
+        ended. ``"latin_hypercube"`` (M. D. McKay, R. J. Beckman,
         W. J. Conover, *Technometrics* 21, 1979), ``"sobol"`` (scrambled; A. B. Owen, *Journal
         of Complexity* 14, 1998) and ``"monte_carlo"`` draw samples. ``"saltelli"`` (A. Saltelli,
         *Computer Physics Communications* 145, 2002) draws two of ``"sobol"``, and for each
@@ -177,6 +179,9 @@ def planned(
     if sampling.method == "list":
         _check_lengths(levels)
         return Runs(levels, None)
+    if sampling.method == "continuation":
+        _check_lengths(levels)
+        return Runs({name: [*each, *each[::-1]] for name, each in levels.items()}, None)
     ordered = {name: levels[name] for name in sorted(levels, key=lambda name: name not in slowest)}
     shape = tuple(len(values) for values in ordered.values())
     _check_number("parameters", math.prod(shape))

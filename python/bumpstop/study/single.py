@@ -7,19 +7,29 @@ from collections.abc import Container
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from bumpstop.arguments import count
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
 from bumpstop.io.case.overrides import overridden
 from bumpstop.io.case.written import toml_text
+from bumpstop.study.layout import STATE
+from bumpstop.study.store import read_store
 
 if TYPE_CHECKING:
     from bumpstop.study.study import Study
 
-__all__ = ["check_run", "write_case"]
+__all__ = ["checked_start", "write_case"]
 
 
-def write_case(study: Study, run: int, path: str | os.PathLike[str]) -> Path:
+def write_case(
+    study: Study,
+    run: int,
+    path: str | os.PathLike[str],
+    *,
+    store: str | os.PathLike[str] | None = None,
+) -> Path:
     """Write a run of a study as a case file.
 
     Parameters
@@ -30,6 +40,9 @@ def write_case(study: Study, run: int, path: str | os.PathLike[str]) -> Path:
         Which of its runs, counted from 0.
     path
         The file. One of that name is replaced.
+    store
+        Where runs follow one another: the study's store, which has the state that the run
+        starts from.
 
     Returns
     -------
@@ -39,13 +52,13 @@ def write_case(study: Study, run: int, path: str | os.PathLike[str]) -> Path:
     Raises
     ------
     InputError
-        If there is no such run, a value cannot be put into the case, or the file cannot be
-        written.
+        If there is no such run, a value cannot be put into the case, the store does not have
+        its start, or the file cannot be written.
     """
-    check_run(study, run)
+    start = checked_start(study, run, store)
     file = Path(path)
     values = study.runs.row(run)
-    changed = overridden(study.document, dict(values))
+    changed = overridden(study.document, dict(values)) | start
     document = {
         "title": f"{study.case.title}: run {run} of a study",
         "description": "\n".join(f"{name} = {value}" for name, value in values.items()),
@@ -56,11 +69,32 @@ def write_case(study: Study, run: int, path: str | os.PathLike[str]) -> Path:
     return file
 
 
-def check_run(study: Study, run: int) -> None:
-    """Raise `InputError` where a study has no such run."""
+def checked_start(
+    study: Study, run: int, store: str | os.PathLike[str] | None = None
+) -> dict[str, Any]:
+    """Return what a run's case has of its start, where the run before it tells; else nothing.
+
+    Raises
+    ------
+    InputError
+        If there is no such run, or the store does not have its start.
+    """
     if count("run", run, least=0) >= study.runs.count:
         what = f"the study has runs 0 to {study.runs.count - 1}"
         raise InputError(what, key="run", value=run)
+    if not study.follows or run % (study.layout.count // 2) == 0:
+        return {}
+    if store is None:
+        what = "starts where another run has ended, which the study's store knows"
+        raise InputError(what, key="run", value=run, hint="name the store")
+    _, _, read = read_store(Path(store))
+    if not read("status", slice(run - 1, run)).any():
+        raise InputError("the run before it has not been made", key="run", value=run)
+    state = [read(name, slice(run - 1, run))[0] for name in STATE]
+    if np.isnan(state).any():
+        return {}
+    displacement, velocity = (each.tolist() for each in state)
+    return {"initial": {"modal": {"displacement": displacement, "velocity": velocity}}}
 
 
 def _moved(part: Any, files: Container[str], old: Path, new: Path) -> Any:

@@ -24,7 +24,7 @@ from bumpstop.study.basins import Basins
 from bumpstop.study.evaluation import Recipe
 from bumpstop.study.execution import Progress, execute, hired
 from bumpstop.study.indices import PARTS
-from bumpstop.study.layout import Layout
+from bumpstop.study.layout import STATE, Layout
 from bumpstop.study.outputs import Output
 from bumpstop.study.parameters import Parameter, as_parameter
 from bumpstop.study.pool import Task
@@ -105,6 +105,8 @@ class Study:
             count("chunk", self.chunk)
         self._check_parameters()
         self._check_outputs()
+        if self.follows:
+            self._check_following()
         _ = self.runs
 
     @cached_property
@@ -130,7 +132,17 @@ class Study:
     @cached_property
     def layout(self) -> Layout:
         """The arrays that its results fill."""
-        return Layout(self.runs, self.outputs, self.chunk)
+        return Layout(self.runs, self.outputs, self.chunk, self._modes)
+
+    @property
+    def follows(self) -> bool:
+        """Whether each run starts where the one before it ended."""
+        return self.sampling.method == "continuation"
+
+    @property
+    def _modes(self) -> int | None:
+        """How many numbers a state has, where runs follow one another."""
+        return len(self.case.bases[str(self.variant)].labels) if self.follows else None
 
     @cached_property
     def recipe(self) -> Recipe:
@@ -290,8 +302,25 @@ class Study:
         with keyed("basins"):
             return self.basins.outputs(problem.duration)
 
+    def _check_following(self) -> None:
+        """Raise where a run cannot start in the state of another."""
+        if self.variant not in self.case.problems:
+            raise InputError("is missing: nothing runs", key="run")
+        if self.basins is not None:
+            what = "asks where runs end that start apart, and these follow one another"
+            raise InputError(what, key="basins", hint="take a grid")
+        for key in self.parameters:
+            table = key.partition(".")[0]
+            if table in STRUCTURE:
+                what = "changes the modes, and the state of others says nothing of these"
+                raise InputError(what, key=f'parameters."{key}"')
+            if table == "initial":
+                raise InputError("is that of the run before", key=f'parameters."{key}"')
+
     def _told_beside(self) -> Iterator[str]:
         """Yield names that the results get from the way of sampling."""
+        if self.follows:
+            yield from ("way", "run_number", *STATE)
         if self.sampling.method == "saltelli":
             yield "parameter"
             yield from (f"{key}_{part}" for key in self.outputs for part in PARTS)

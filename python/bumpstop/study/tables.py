@@ -103,8 +103,10 @@ class SamplingTable(Table):
     method: Annotated[str, choice(*SAMPLINGS)] = Field(
         default="grid",
         description="Each value with each of the others (grid), the n-th values together "
-        "(list), samples that are drawn, for Sobol's indices among them (saltelli), or each "
-        "parameter low and high while the others are in their middle (one_at_a_time)",
+        "(list), so, too, but up and then down, each run from the state in which the one before "
+        "it ended (continuation), samples that are drawn, for Sobol's indices among them "
+        "(saltelli), or each parameter low and high while the others are in their middle "
+        "(one_at_a_time)",
     )
     count: Count | None = Field(
         default=None,

@@ -40,6 +40,8 @@ def parameters_of(results: xr.Dataset) -> list[str]:
 
 def run_numbers(results: xr.Dataset) -> xr.DataArray:
     """Return the number of each run, as a study counts them."""
+    if "run_number" in results.coords:
+        return results.coords["run_number"]
     if "run" in results.coords:
         return results.coords["run"]
     failed = results.failed

@@ -13,7 +13,12 @@ from bumpstop.report.scales import scale_for, significant
 from bumpstop.report.studies.axes import parameters_of, run_numbers
 from bumpstop.report.studies.bars import shares_figure, sobol_figure, tornado_figure
 from bumpstop.report.studies.grids import basin_figure, curve_figure, heat_figure
-from bumpstop.report.studies.points import histogram_figure, over_time_figure, scatter_figure
+from bumpstop.report.studies.points import (
+    histogram_figure,
+    over_time_figure,
+    scatter_figure,
+    two_ways_figure,
+)
 from bumpstop.report.variant import caption, untitled
 from bumpstop.report.words import shown
 from bumpstop.study.basins import SECTION
@@ -87,7 +92,9 @@ def _figures(study: Study, results: xr.Dataset, outputs: Sequence[str]) -> Itera
     for name in outputs:
         if not np.isfinite(results[name].values).any():
             continue
-        if study.outputs[name].shape:
+        if study.follows:
+            yield two_ways_figure(results, name)
+        elif study.outputs[name].shape:
             yield from _over_times(results, name)
         elif study.sampling.method == "one_at_a_time":
             yield tornado_figure(results, name)

@@ -137,6 +137,13 @@ def two_ways_figure(results: xr.Dataset, output: str) -> Figure:
         (key, each) for key, each in results.coords.items() if each.dims == ("run",)
     )
     clouds = [_cloud(levels, ways)._replace(name=str(ways.way.values)) for ways in array]
+    if "run_number" in results.coords:
+        numbers = results.coords["run_number"].values
+        each = array[0].size // levels.size
+        clouds = [
+            cloud._replace(runs=np.repeat(runs, each))
+            for cloud, runs in zip(clouds, numbers, strict=True)
+        ]
     return bifurcation_figure((str(name), "1"), clouds, output_axis(array))
 
 
