@@ -2,6 +2,7 @@
 
 mod accounts;
 mod contact;
+mod crowded;
 mod defect;
 mod projection;
 mod turns;
@@ -17,8 +18,10 @@ use crate::problem::Problem;
 use crate::rigid::Blow;
 use accounts::{Accounts, Ledgers, Settlement};
 use contact::ContactReader;
+use crowded::{NODES, Series, crowd};
 use defect::Defect;
 use projection::Projection;
+use std::mem::take;
 use std::sync::OnceLock;
 
 /// The phases of a run.
@@ -260,28 +263,97 @@ impl Vectorised for Rows<'_> {
     type Output = Vec<f64>;
     #[inline(always)]
     fn run<I: Instructions>(self) -> Vec<f64> {
-        let phases = &self.record.phases;
-        let mut works: [Workspace; HALF] = Default::default();
-        let mut unused = vec![0.0; self.modes];
         let mut rows = vec![0.0; self.times.len() * self.modes];
+        let mut room = Room::new(self.modes);
         let (mut left, mut to) = (self.times, rows.as_mut_slice());
         let mut number = 0;
         while let Some(first) = left.first() {
             number = self.record.phase_from(number, *first);
-            let phase = phases.list[number];
-            let mut since = [first - phase.start; HALF];
-            let mut count = 1;
-            while count < left.len().min(HALF)
-                && self.record.phase_from(number, left[count]) == number
-            {
-                since[count] = left[count] - phase.start;
-                count += 1;
-            }
-            let (own, others) = to.split_at_mut(count * self.modes);
-            let since = &since[..count];
-            phases.motion_of_four::<I>(phase, self.derivative, since, &mut works, own, &mut unused);
-            (left, to) = (&left[count..], others);
+            let (until, interval) = self.extent(number);
+            let count = if let Some(count) = crowd(left, until.min(first + interval)) {
+                self.put_crowd::<I>(number, &left[..count], &mut room, to);
+                count
+            } else {
+                let inside = |time: &&f64| self.record.phase_from(number, **time) == number;
+                let count = 1 + left[1..].iter().take(HALF - 1).take_while(inside).count();
+                self.put_each::<I>(number, &left[..count], &mut room, to);
+                count
+            };
+            (left, to) = (&left[count..], &mut to[count * self.modes..]);
         }
         rows
+    }
+}
+
+impl Rows<'_> {
+    /// The end of a phase, and the length of the intervals in which instants may crowd.
+    #[inline(always)]
+    fn extent(&self, number: usize) -> (f64, f64) {
+        let phases = &self.record.phases;
+        let until = (phases.list.get(number + 1)).map_or(f64::INFINITY, |next| next.start);
+        let spectrum = &phases.spectra[phases.list[number].spectrum];
+        (until, crowded::interval(spectrum))
+    }
+
+    /// Up to four instants.
+    #[inline(always)]
+    fn put_each<I: Instructions>(
+        &self,
+        number: usize,
+        times: &[f64],
+        room: &mut Room,
+        to: &mut [f64],
+    ) {
+        let phases = &self.record.phases;
+        let phase = phases.list[number];
+        let mut since = [0.0; HALF];
+        for (since, time) in since.iter_mut().zip(times) {
+            *since = time - phase.start;
+        }
+        let since = &since[..times.len()];
+        let to = &mut to[..times.len() * self.modes];
+        let Room { works, unused, .. } = room;
+        phases.motion_of_four::<I>(phase, self.derivative, since, works, to, unused);
+    }
+
+    /// Instants that crowd in an interval.
+    #[inline(always)]
+    fn put_crowd<I: Instructions>(
+        &self,
+        number: usize,
+        times: &[f64],
+        room: &mut Room,
+        to: &mut [f64],
+    ) {
+        let nodes = (room.series).set_interval([times[0], times[times.len() - 1]]);
+        let mut rows = take(&mut room.rows);
+        rows.resize(NODES * self.modes, 0.0);
+        for (nodes, rows) in nodes.chunks(HALF).zip(rows.chunks_mut(HALF * self.modes)) {
+            self.put_each::<I>(number, nodes, room, rows);
+        }
+        room.series.fit::<I>(&rows);
+        room.series.at::<I>(times, to);
+        room.rows = rows;
+    }
+}
+
+/// Room for sampling, used again and again.
+struct Room {
+    works: [Workspace; HALF],
+    /// For the other of displacement and velocity.
+    unused: Vec<f64>,
+    series: Series,
+    /// Motion at the nodes of the series.
+    rows: Vec<f64>,
+}
+
+impl Room {
+    fn new(modes: usize) -> Self {
+        Self {
+            works: Default::default(),
+            unused: vec![0.0; modes],
+            series: Series::default(),
+            rows: Vec::new(),
+        }
     }
 }
