@@ -43,7 +43,7 @@ def test_cells_of_a_heat_map_are_their_runs(grid: tuple[bs.Study, xr.Dataset]) -
 
 def test_axes_are_logarithmic_where_values_are(grid: tuple[bs.Study, xr.Dataset]) -> None:
     figure = bs.heat_map(grid[1], "force")
-    assert figure.layout.xaxis.title.text == STIFFNESS
+    assert figure.layout.xaxis.title.text == f"{STIFFNESS} (N/m)"
     assert figure.layout.xaxis.type == "log"
     assert figure.layout.yaxis.type is None
     assert figure.layout.title.text == "Largest force of spring"

@@ -198,6 +198,7 @@ def test_room_beside_the_numbers_does_not_grow() -> None:
         _, most = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
+    assert found["stops.wall.stiffness"].attrs == {"units": "N/m"}
     assert most - found.failed.nbytes - found.message.nbytes < runs
 
 

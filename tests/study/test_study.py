@@ -125,6 +125,20 @@ def test_modes_are_computed_once(bouncing: bs.Study, monkeypatch: pytest.MonkeyP
     )
 
 
+def test_parameters_have_their_units(tmp_path: Path) -> None:
+    study = bs.load_study(written(tmp_path))
+    varied = {"stops.spring.gap": [0.25], "masses.ball.mass": [2.0], "basis.modes": [1]}
+    found = bs.Study(study.case, varied, study.outputs).run(tmp_path / "s.zarr", workers=1)
+    units = {key: found[key].attrs.get("units") for key in varied}
+    assert units == {"stops.spring.gap": "m", "masses.ball.mass": "kg", "basis.modes": None}
+    reopened = bs.open_study(tmp_path / "s.zarr")
+    assert {key: reopened[key].attrs.get("units") for key in varied} == units
+    assert bs.heat_map(found, "force").layout.xaxis.title.text in {
+        "stops.spring.gap (m)",
+        "masses.ball.mass (kg)",
+    }
+
+
 def test_results_stand_where_their_parameters_are(bouncing: bs.Study, tmp_path: Path) -> None:
     # The modes depend on the mass: it changes least often, although it is not the first.
     varied = {GAP: [0.1, 0.2, 0.4], "masses.ball.mass": [2.0, 3.0], STIFFNESS: [100.0, 200.0]}

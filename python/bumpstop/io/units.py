@@ -19,7 +19,14 @@ if TYPE_CHECKING:
 
     from pint import Unit, UnitRegistry
 
-__all__ = ["WRONG_UNIT", "Dimension", "read_number_of_any_unit", "read_quantity", "si_factor"]
+__all__ = [
+    "WRONG_UNIT",
+    "Dimension",
+    "asked_unit",
+    "read_number_of_any_unit",
+    "read_quantity",
+    "si_factor",
+]
 
 # Compiled by the functions that use them, since most case files have no unit.
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
@@ -84,8 +91,27 @@ def read_quantity(text: str, dimension: Dimension) -> float:
     number, unit = match.groups()
     if not unit and dimension.unit:
         what = f"has no unit, expected {dimension.name} like {dimension.example!r}"
-        raise InputError(what, value=text, hint=f"numbers in {dimension.unit} go without quotes")
+        raise InputError(what, value=text, hint=_PLAIN.format(dimension.unit))
     return _in_range(text, Fraction(number) * _factor(text, unit, dimension))
+
+
+_PLAIN = "numbers in {} go without quotes"
+"""Hint where a unit is missing, with the unit that numbers are held in."""
+
+
+def asked_unit(error: InputError) -> str | None:
+    """Return the SI unit of a quantity from what is said of a text that has none.
+
+    Examples
+    --------
+    >>> try:
+    ...     read_quantity("18", Dimension("a stiffness", "N/m", "18 kN/m"))
+    ... except InputError as error:
+    ...     print(asked_unit(error))
+    N/m
+    """
+    found = re.search(_PLAIN.format("(.+?)"), error.hint or "")
+    return found and found.group(1)
 
 
 def si_factor(unit: str, dimension: Dimension | None = None) -> float:

@@ -29,6 +29,9 @@ __all__ = ["batch"]
 FACTORS = ("initial.displacement", "initial.velocity", "loads", "loads.pace")
 """What may be given as factors of what the problem has."""
 
+_UNITS = {"gap": "m", "stiffness": "N/m", "damping": "N s/m"}
+"""Of the numbers of a stop; factors have none."""
+
 _IN_PARTS = "make the runs in several batches, or a study with a store"
 
 
@@ -253,7 +256,10 @@ def labelled(
 
     runs = len(found)
     variables: dict[str, Any] = {}
-    coordinates: dict[str, Any] = {key: ("run", values) for key, values in columns.items()}
+    coordinates: dict[str, Any] = {
+        key: ("run", values, {"units": _UNITS.get(key.rpartition(".")[2], "1")})
+        for key, values in columns.items()
+    }
     place = 0
     for key, output in outputs.items():
         width = output.shape[0] if output.shape else 1

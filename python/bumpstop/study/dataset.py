@@ -88,6 +88,9 @@ def labelled(
         found["attractor"] = (*shaped.placed(classes.numbers, ()), _ATTRACTOR)
         found |= _attractors(classes)
     dataset = xr.Dataset(found, coordinates, attrs={"case": definition["title"]})
+    for name in names:
+        if "units" in arrays[name].attributes:
+            dataset[name].attrs["units"] = arrays[name].attributes["units"]
     if sampling["method"] == "one_at_a_time":
         own = [dataset[name].values[at] for at, name in enumerate(in_order)]
         return dataset.assign(value=(shaped.names, np.array(own, dtype=object)))

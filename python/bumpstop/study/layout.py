@@ -59,6 +59,8 @@ class Layout:
         on who makes the runs, so that a store has the same files whoever does.
     modes
         How many numbers the state of a run has, where the next one starts in it.
+    units
+        Units of parameters.
     """
 
     def __init__(
@@ -66,8 +68,11 @@ class Layout:
         runs: Runs,
         outputs: Mapping[str, Output],
         chunk: int | None = None,
+        *,
         modes: int | None = None,
+        units: Mapping[str, str] | None = None,
     ) -> None:
+        self._units = units or {}
         self.count = runs.count
         self.chunk = chunk or max(1, min(_MOST_IN_CHUNK, runs.count // _CHUNKS))
         self.chunks = -(-self.count // self.chunk)
@@ -101,9 +106,10 @@ class Layout:
         words = self._words[name]
         if words:
             return Array((self.count,), "int64", -1, ("run",), {"words": words})
+        told = {"units": self._units[name]} if name in self._units else {}
         if np.asarray(levels).dtype.kind in "iu":
-            return Array((self.count,), "int64", -1, ("run",))
-        return Array((self.count,), "float64", np.nan, ("run",))
+            return Array((self.count,), "int64", -1, ("run",), told)
+        return Array((self.count,), "float64", np.nan, ("run",), told)
 
     def _state(self, modes: int) -> Array:
         return Array((self.count, modes), "float64", np.nan, ("run", "mode"))

@@ -19,7 +19,7 @@ from bumpstop.io.case.build import STRUCTURE
 from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.load import checked_tables
 from bumpstop.io.case.overrides import overridden
-from bumpstop.io.units import WRONG_UNIT
+from bumpstop.io.units import WRONG_UNIT, asked_unit
 from bumpstop.study.basins import Basins
 from bumpstop.study.evaluation import Recipe
 from bumpstop.study.execution import Progress, execute, hired
@@ -132,7 +132,14 @@ class Study:
     @cached_property
     def layout(self) -> Layout:
         """The arrays that its results fill."""
-        return Layout(self.runs, self.outputs, self.chunk, self._modes)
+        return Layout(self.runs, self.outputs, self.chunk, modes=self._modes, units=self.units)
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """The SI units of those parameters that have one."""
+        errors = {key: self._objection(key, "1") for key in self.parameters}
+        units = {key: error and asked_unit(error) for key, error in errors.items()}
+        return {key: unit for key, unit in units.items() if unit}
 
     @property
     def follows(self) -> bool:

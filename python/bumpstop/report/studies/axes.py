@@ -24,6 +24,7 @@ __all__ = [
     "parameters_of",
     "required",
     "run_numbers",
+    "units_of",
 ]
 
 _LEAST_IN_LOG = 3
@@ -73,12 +74,18 @@ def output_axis(array: xr.DataArray) -> Axis:
     return Axis(words[:1].upper() + words[1:], scale)
 
 
-def parameter_axis(name: str, levels: NDArray[Any]) -> dict[str, Any]:
+def units_of(parameter: xr.DataArray) -> str:
+    """Return the unit of a parameter as it is shown; ``"1"`` where it has none."""
+    return shown(str(parameter.attrs.get("units", "1")))
+
+
+def parameter_axis(parameter: xr.DataArray) -> dict[str, Any]:
     """Return an axis for the values of a parameter, as plotly has it."""
-    layout = Axis(name, Scale(1.0, "1")).layout()
+    levels = parameter.values
+    layout = Axis(str(parameter.name), Scale(1.0, units_of(parameter))).layout()
     if levels.dtype.kind not in "iuf":
         return layout | {"type": "category"}
-    # Not plotly's letters: their unit is not known here.
+    # Not plotly's letters, which would stand beside a unit.
     layout |= {"exponentformat": "power"}
     if not _is_log(levels):
         return layout
@@ -88,12 +95,12 @@ def parameter_axis(name: str, levels: NDArray[Any]) -> dict[str, Any]:
 
 
 def layout_over(
-    title: str, x: tuple[str, NDArray[Any]], y: dict[str, Any], subtitle: str = ""
+    title: str, x: xr.DataArray, y: dict[str, Any], subtitle: str = ""
 ) -> dict[str, Any]:
     """Return the layout of a figure over a parameter."""
-    plain = Axis(x[0], Scale(1.0, "1"))
+    plain = Axis(str(x.name), Scale(1.0, "1"))
     layout = layout_of(title, plain, plain, subtitle)
-    layout |= {"xaxis": parameter_axis(*x), "yaxis": y, "hovermode": "closest"}
+    layout |= {"xaxis": parameter_axis(x), "yaxis": y, "hovermode": "closest"}
     layout["showlegend"] = False
     return layout
 

@@ -101,7 +101,7 @@ def curve_figure(results: xr.Dataset, output: str) -> Figure:
     title = str(array.attrs.get("long_name", output))
     return {
         "data": [trace],
-        "layout": layout_over(_capital(title), (name, levels), axis.layout()),
+        "layout": layout_over(_capital(title), array[name], axis.layout()),
     }
 
 
@@ -128,10 +128,10 @@ def heat_figure(
         f"<br>{up} = %{{y:.5~g}}<br>run %{{customdata}}<extra></extra>",
     }
     title = _capital(str(array.attrs.get("long_name", output)))
-    y_axis = parameter_axis(up, array[up].values)
+    y_axis = parameter_axis(array[up])
     return {
         "data": [trace],
-        "layout": layout_over(title, (across, array[across].values), y_axis, _capital(told)),
+        "layout": layout_over(title, array[across], y_axis, _capital(told)),
     }
 
 
@@ -161,8 +161,8 @@ def basin_figure(results: xr.Dataset, x: str | None = None, y: str | None = None
         "hovertemplate": f"attractor %{{z}}<br>{across} = %{{x:.5~g}}<br>{up} = %{{y:.5~g}}"
         "<br>run %{customdata}<extra></extra>",
     }
-    y_axis = parameter_axis(up, seen[up].values)
-    layout = layout_over("Basins of attraction", (across, seen[across].values), y_axis)
+    y_axis = parameter_axis(seen[up])
+    layout = layout_over("Basins of attraction", seen[across], y_axis)
     return {"data": [trace], "layout": layout}
 
 

@@ -153,7 +153,9 @@ def _parameters(study: Study) -> list[dict[str, str]]:
             told = ", ".join(map(str, dict.fromkeys(levels)))
         else:
             low, high = (significant(float(end(levels)), 6, zeros=False) for end in (min, max))
-            told = low if low == high else f"{low} to {high}, {len(set(levels)):,} values"
+            unit = f" {shown(study.units[name])}" if name in study.units else ""
+            many = f" to {high}{unit}, {len(set(levels)):,} values"
+            told = low + (unit if low == high else many)
         rows.append({"name": name, "levels": told})
     return rows
 

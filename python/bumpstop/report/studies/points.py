@@ -18,6 +18,7 @@ from bumpstop.report.studies.axes import (
     parameters_of,
     required,
     run_numbers,
+    units_of,
 )
 from bumpstop.report.studies.raster import COLUMNS, ROWS, rastered
 
@@ -125,7 +126,7 @@ def over_time_figure(results: xr.Dataset, output: str) -> Figure:
         raise InputError(what, key="output", value=output)
     runs = run_numbers(results).values
     cloud = _cloud(array[names[0]], array)._replace(runs=np.repeat(runs, array.shape[1]))
-    return bifurcation_figure((names[0], "1"), [cloud], output_axis(array))
+    return bifurcation_figure((names[0], units_of(array[names[0]])), [cloud], output_axis(array))
 
 
 def two_ways_figure(results: xr.Dataset, output: str) -> Figure:
@@ -144,7 +145,7 @@ def two_ways_figure(results: xr.Dataset, output: str) -> Figure:
             cloud._replace(runs=np.repeat(runs, each))
             for cloud, runs in zip(clouds, numbers, strict=True)
         ]
-    return bifurcation_figure((str(name), "1"), clouds, output_axis(array))
+    return bifurcation_figure((str(name), units_of(levels)), clouds, output_axis(array))
 
 
 def _cloud(levels: xr.DataArray, values: xr.DataArray) -> Cloud:
@@ -176,7 +177,7 @@ def scatter_figure(results: xr.Dataset, output: str, parameter: str) -> Figure:
         }
     trace["hovertemplate"] = f"{hover}<extra></extra>"
     title = f"{axis.name} over {parameter}"
-    return {"data": [trace], "layout": layout_over(title, (parameter, levels), axis.layout())}
+    return {"data": [trace], "layout": layout_over(title, results[parameter], axis.layout())}
 
 
 def histogram_figure(results: xr.Dataset, output: str) -> Figure:
