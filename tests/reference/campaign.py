@@ -94,7 +94,7 @@ class Summary:
         if one.verdict is None:
             self.broken += bool(one.failure)
             self.refusals.update([one.refusal] if one.refusal else [])
-            return one.failure or None
+            return one.failure or f"refused: {one.refusal}"
         verdict, difference = one.verdict, one.verdict.difference
         self.events += verdict.events
         self.worst_error = max(self.worst_error, verdict.error)
