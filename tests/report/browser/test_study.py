@@ -22,6 +22,12 @@ DRAWN = (
     STUDY.replace('from = "50 N/m", to = 800, count = 5, spacing = "log"', "from = 50, to = 800")
     + '[sampling]\nmethod = "latin_hypercube"\ncount = 12\n'
 )
+EVEN = STUDY.replace(', spacing = "log"', "")
+ALONE = EVEN + '[sampling]\nmethod = "one_at_a_time"\n'
+SALTELLI = EVEN + '[sampling]\nmethod = "saltelli"\ncount = 4\n'
+FOLLOWED = EVEN.replace('[0.25, "50 cm"]', "[0.1, 0.2, 0.3, 0.4, 0.5]") + (
+    '[sampling]\nmethod = "continuation"\n'
+)
 
 
 def swept(folder: Path, study: str, capsys: pytest.CaptureFixture[str]) -> Path:
@@ -51,7 +57,7 @@ def test_a_click_on_a_cell_tells_its_run(
     page: Page = opened(swept(tmp_path, STUDY, capsys))
     draw_all(page)
     varied = page.get_by_role("region", name="What varies").locator("tbody td")
-    assert varied.all_text_contents() == ["50 to 800, 5 values", "0.25 to 0.5, 2 values"]
+    assert varied.all_text_contents() == ["50 to 800 N/m, 5 values", "0.25 to 0.5 m, 2 values"]
     place = page.locator("[data-figure]").first
     place.scroll_into_view_if_needed()
     place.click(position=middle_of_cell(place, 3, 1))  # 400 N/m, 50 cm
@@ -98,10 +104,31 @@ def test_failed_runs_are_listed(
     assert command.endswith("--open 1")
 
 
-def test_it_is_read_on_narrow_screens_without_sideways_scrolling(
+def test_a_click_on_a_bar_tells_its_run(
     opened: Opened, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    page: Page = opened(swept(tmp_path, STUDY, capsys), width=360)
+    page: Page = opened(swept(tmp_path, ALONE, capsys))
+    draw_all(page)
+    force = page.locator("[data-figure]").first
+    force.scroll_into_view_if_needed()
+    bar = force.locator(".barlayer .trace").last.locator("path").last  # stiff
+    box = bar.bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    told = page.locator("#run [data-part=told]")
+    page.wait_for_function(
+        "told => told.textContent.includes('stiffness = 762.5')", arg=told.element_handle()
+    )
+    command = page.locator("#run [data-part=command]").text_content() or ""
+    assert command.endswith("--open 2")
+
+
+@pytest.mark.parametrize("study", [STUDY, ALONE, SALTELLI, FOLLOWED])
+def test_it_is_read_on_narrow_screens_without_sideways_scrolling(
+    study: str, opened: Opened, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page: Page = opened(swept(tmp_path, study, capsys), width=360)
+    draw_all(page)
     wide = """() => [document.documentElement, ...document.querySelectorAll('.table-frame')]
         .filter((each) => each.scrollWidth > each.clientWidth + 1).length"""
     assert page.evaluate(wide) == 0
