@@ -65,7 +65,9 @@ def test_a_click_on_a_cell_tells_its_run(
     page.wait_for_function(
         "told => told.textContent.includes('stiffness = 400')", arg=told.element_handle()
     )
-    assert "stops.spring.gap = 0.5000" in (told.text_content() or "")
+    words = (told.text_content() or "").split(", ")
+    assert words[:2] == ["stops.spring.stiffness = 400 N/m", "stops.spring.gap = 0.5 m"]
+    assert words[2] == "force = 84.8528 N"  # 3 m/s sqrt(k m)
     command = page.locator("#run [data-part=command]").text_content() or ""
     assert command == f"bumpstop sweep {tmp_path / 'study.toml'} --open 7"
     # What is offered is what the shell understands.

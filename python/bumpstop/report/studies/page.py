@@ -223,7 +223,15 @@ def _runs(
     for name in outputs:
         if not study.outputs[name].shape:
             values[name] = results[name].values.ravel()[order][told]
-    return {"count": count, "command": opened_by, "numbers": told, "values": values}
+    of_outputs = {name: str(results[name].attrs.get("units", "1")) for name in outputs}
+    units = {name: shown(unit) for name, unit in (study.units | of_outputs).items() if unit != "1"}
+    return {
+        "count": count,
+        "command": opened_by,
+        "numbers": told,
+        "values": values,
+        "units": units,
+    }
 
 
 def _column(levels: Sequence[Any]) -> NDArray[np.float64] | list[str]:

@@ -1,11 +1,17 @@
 // The runs behind the points of a study: a click tells the run, and the command that opens it.
 
+// The six digits that the page has of any number, without zeros at their end.
+function sixDigits(value) {
+  return Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace("-", "−") : "–";
+}
+
 class Runs {
-  constructor(place, { count, command, numbers, values }) {
+  constructor(place, { count, command, numbers, values, units }) {
     this.count = count;
     this.command = command;
     this.numbers = numbers;
     this.values = values;
+    this.units = units;
     this.field = place.querySelector("[data-part=number]");
     this.told = place.querySelector("[data-part=told]");
     this.code = place.querySelector("[data-part=command]");
@@ -37,7 +43,8 @@ class Runs {
     const at = this.numbers.indexOf(run);
     const told = Object.entries(this.values).map(([name, column]) => {
       const value = column[at];
-      return `${name} = ${typeof value === "number" ? significant(value, 6) : value}`;
+      const unit = this.units[name] ? ` ${this.units[name]}` : "";
+      return `${name} = ${typeof value === "number" ? sixDigits(value) + unit : value}`;
     });
     this.told.textContent = at < 0 ? "" : told.join(", ");
   }
