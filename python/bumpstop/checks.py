@@ -1,4 +1,4 @@
-"""What a user should think twice about before a run: stops too stiff, or pressed already."""
+"""What a user should think twice about before a run: laws too stiff, stops pressed already."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import ComputationError
+from bumpstop.laws.steepness import pressed_coordinates, steepness
 
 if TYPE_CHECKING:
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Law, Problem
 
@@ -35,14 +37,14 @@ _KNOWN: WeakKeyDictionary[ModalBasis, dict[bytes, float]] = WeakKeyDictionary()
 
 
 def contact_warnings(problem: Problem) -> tuple[str, ...]:
-    """Return a line for each stop that the basis is too stiff for, or that is pressed at t = 0."""
+    """Return a line for each law that the basis is too soft for, and stop pressed at t = 0."""
     stops = [
         law
         for law in problem.laws
         if isinstance(getattr(law, "gap", None), float) or hasattr(law, "gap_at")
     ]
     return (
-        *_too_stiff(problem.basis, stops),
+        *_too_stiff(problem),
         *_pressed(problem, stops),
         *_out_of_balance(problem),
     )
@@ -52,7 +54,8 @@ def missing_flexibility(basis: ModalBasis, laws: Sequence[Law]) -> FloatArray:
     """Return how much more the structure gives way at laws than its basis, (laws,), in m/N.
 
     Under a unit force along the coordinate of each, balanced by inertia where the structure can
-    move as a whole: the static displacement of the model, less that of the basis.
+    move as a whole: the static displacement of the model, less that of the basis; of obstacles
+    about an axis the larger one of both directions across it.
 
     Parameters
     ----------
@@ -63,7 +66,8 @@ def missing_flexibility(basis: ModalBasis, laws: Sequence[Law]) -> FloatArray:
     """
     model = basis.model
     assert model is not None  # as its user promises
-    forces = [law.coordinate.nodal_force(model) for law in laws]
+    along = [coordinate for law in laws for coordinate in pressed_coordinates(law)]
+    forces = [coordinate.nodal_force(model) for coordinate in along]
     known = _KNOWN.setdefault(basis, {})
     new = {force.tobytes(): force for force in forces if force.tobytes() not in known}
     if new:
@@ -73,42 +77,66 @@ def missing_flexibility(basis: ModalBasis, laws: Sequence[Law]) -> FloatArray:
         whole = np.einsum("dn,dn->n", columns, StaticShapes(model).under(columns))
         known.update(zip(new, whole.tolist(), strict=True))
     all_of_it = np.array([known[force.tobytes()] for force in forces])
-    rows = np.stack([law.coordinate.row(basis) for law in laws])
-    missing: FloatArray = np.maximum(all_of_it - _flexibilities(basis, rows).sum(axis=1), 0.0)
-    return missing
+    in_modes = _flexibilities(basis, np.concatenate([_rows(basis, law) for law in laws]))
+    missing: FloatArray = np.maximum(all_of_it - in_modes.sum(axis=1), 0.0)
+    first = np.cumsum([0, *(len(pressed_coordinates(law)) for law in laws[:-1])])
+    softest: FloatArray = np.maximum.reduceat(missing, first)
+    return softest
 
 
-def _too_stiff(basis: ModalBasis, stops: Sequence[Law]) -> Iterator[str]:
-    asked = [stop for stop in stops if _is_doubtful(basis, stop)]
-    if not asked:
+def _rows(basis: ModalBasis, law: Law) -> FloatArray:
+    """Return the motion along each coordinate that a law pushes along, (coordinates, N)."""
+    several: Any = getattr(law, "rows", None)
+    if several is not None:
+        rows: FloatArray = several(basis)[: len(pressed_coordinates(law))]
+        return rows
+    return law.coordinate.row(basis)[np.newaxis]
+
+
+def _too_stiff(problem: Problem) -> Iterator[str]:
+    basis = problem.basis
+    model = basis.model
+    if model is None or not len(basis.omega2) < len(model.free) <= _LARGEST:
+        return
+    energy = _energy_at_start(problem)
+    steep = [(law, steepness(law, energy)) for law in problem.laws]
+    doubtful = [(law, slope) for law, slope in steep if _is_doubtful(basis, law, slope)]
+    if not doubtful:
         return
     try:
-        missing = missing_flexibility(basis, asked).tolist()
+        missing = missing_flexibility(basis, [law for law, _ in doubtful]).tolist()
     except ComputationError:  # a structure that is unstable at rest cannot be asked
         return
-    for stop, flexibility in zip(asked, missing, strict=True):
-        stiffness: Any = getattr(stop, "stiffness", 0.0)
-        share = stiffness * flexibility
+    for (law, slope), flexibility in zip(doubtful, missing, strict=True):
+        share = slope * flexibility
         if share > _SPOILS:
+            kind, mend = ("stop", 'or static_shapes = "stops"')
+            if law.table != "stops":
+                kind, mend = ("law", "or a static shape at its node")
             yield (
-                f"stop {stop.name!r}: the modes left out would give way {100 * share:.3g} % as "
-                "much as the stop itself, and its force is wrong by about as much; take more "
-                'modes, or static_shapes = "stops"'
+                f"{kind} {law.name!r}: the modes left out would give way {100 * share:.3g} % as "
+                f"much as the {kind} itself, and its force is wrong by about as much; take more "
+                f"modes, {mend}"
             )
 
 
-def _is_doubtful(basis: ModalBasis, stop: Law) -> bool:
-    """Tell whether the last modes are so soft at a stop that those beyond them may matter."""
-    stiffness = getattr(stop, "stiffness", None)
-    model = basis.model
-    if model is None or not isinstance(stiffness, float) or hasattr(stop, "exponent"):
+def _energy_at_start(problem: Problem) -> float:
+    """Return the kinetic and elastic energy in J of the structure at t = 0."""
+    if problem.initial is None:
+        return 0.0
+    displacement, velocity = problem.initial.modal_state(problem.basis)
+    elastic = np.maximum(problem.basis.omega2, 0.0) * displacement**2
+    return float(0.5 * (elastic + velocity**2).sum())
+
+
+def _is_doubtful(basis: ModalBasis, law: Law, slope: float) -> bool:
+    """Tell whether the last modes are so soft at a law that those beyond them may matter."""
+    if slope == 0.0:
         return False
     modes = len(basis.omega2)
-    if not modes < len(model.free) <= _LARGEST:
-        return False
-    row = stop.coordinate.row(basis)[np.newaxis]
-    last = _flexibilities(basis, row)[0, modes - max(modes // _LAST, 1) :]
-    return bool(stiffness * modes * last.max() > _HARMLESS)
+    flexibilities = _flexibilities(basis, _rows(basis, law))
+    last = flexibilities[:, modes - max(modes // _LAST, 1) :]
+    return bool(slope * modes * last.max() > _HARMLESS)
 
 
 def _flexibilities(basis: ModalBasis, rows: FloatArray) -> FloatArray:
@@ -141,6 +169,8 @@ def _start(basis: ModalBasis, stop: Law, place: FloatArray | None) -> tuple[floa
         rest = at(basis, np.zeros(len(basis.omega2)))
         return rest, at(basis, place) - rest
     gap: Any = getattr(stop, "gap", 0.0)
+    functions: Sequence[TimeFunction] = getattr(stop, "functions", ())
+    gap -= sum(float(function.at(np.zeros(1))[0]) for function in functions)
     return gap, float(stop.coordinate.row(basis) @ place) if place.any() else 0.0
 
 

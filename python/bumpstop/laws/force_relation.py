@@ -111,6 +111,11 @@ class ForceRelation(Connection):
         """Its stiffness in N/m about no displacement, a scale of what it resists with."""
         return abs(self.static_force(0.0)[1])
 
+    @property
+    def steepest(self) -> float:
+        """Its slope in N/m about no displacement: formulas have no largest one."""
+        return self.static_stiffness
+
     def static_force(self, place: float) -> tuple[float, float]:
         """Return the force in N on the structure, ``place`` m along, at rest, and its slope."""
         step = STEP * (abs(place) or 1.0)

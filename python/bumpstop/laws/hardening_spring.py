@@ -146,6 +146,11 @@ class HardeningSpring(Connection):
         beyond = np.maximum(np.abs(x) - end[0], 0.0) * slope
         return np.asarray(np.sign(x) * (np.interp(np.abs(x), *points.T) + beyond))
 
+    @property
+    def steepest(self) -> float:
+        """The largest slope in N/m that its force can have, up to its elastic limit."""
+        return self.curve[0][1] / self.curve[0][0]
+
     def static_force(self, place: float) -> tuple[float, float]:
         """Return the force in N on the structure, ``place`` m along in one pull, and its slope."""
         points = np.vstack([[0.0, 0.0], np.array(self.curve)])

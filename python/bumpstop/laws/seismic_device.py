@@ -115,6 +115,11 @@ class SeismicDevice(Connection):
         damper = np.abs(x / self.stroke) ** self.exponent * power
         return np.asarray(spring * x + self.damping * damper)
 
+    @property
+    def steepest(self) -> float:
+        """The largest slope in N/m that its force can have, that of small elongations."""
+        return self.first_stiffness
+
     def static_force(self, place: float) -> tuple[float, float]:
         """Return the force in N on the structure, ``place`` m along, at rest, and its slope."""
         bent = float(np.hypot(1.0, self.first_stiffness * place / self.threshold))

@@ -132,6 +132,11 @@ class SpringLaw(Connection):
         breaks, stiffness = np.array(self.breaks, np.float64), np.array(self.stiffness)
         return _core.Spring(self.row(basis), breaks, stiffness, self.preload, self.damping)
 
+    @property
+    def steepest(self) -> float:
+        """The largest slope in N/m that its force can have."""
+        return max(abs(slope) for slope in self.stiffness)
+
     def static_force(self, place: float) -> tuple[float, float]:
         """Return the force in N on the structure, ``place`` m along, at rest, and its slope."""
         segment = int(np.searchsorted(self.breaks, place, side="right"))

@@ -96,6 +96,12 @@ class ZenerDamper(Connection):
             hint = "a higher power has no force at small speeds; give at most 1"
             raise InputError("must not exceed 1", key="exponent", value=self.exponent, hint=hint)
 
+    @property
+    def steepest(self) -> float:
+        """The largest slope in N/m that its force can have, while its dashpot is quick."""
+        beside = self.parallel_stiffness + self.branch_stiffness
+        return self.series_stiffness * beside / (self.series_stiffness + beside)
+
     def core(self, basis: ModalBasis) -> _core.ZenerDamper:
         """Return the damper as the core sees it; see `row`."""
         from bumpstop import _core
