@@ -1,6 +1,7 @@
 """Kill studies a hundred times at random instants, and compare their stores with unbroken ones.
 
-Half of the kills meet a study whose runs the core makes, half one whose runs processes make.
+A third of the kills meet a study whose runs the core makes, a third one whose runs processes make,
+and a third one whose runs follow one another.
 ``python benchmarks/killed_studies.py [KILLS]``; the exit status is 1 where a byte differs.
 """
 
@@ -39,6 +40,12 @@ dof = "dy"
 statistic = "mean"
 """
 """An output that the core does not read: processes make the runs."""
+FOLLOWED = (
+    STUDY.replace(', count = 60, spacing = "log"', ", count = 600")
+    .replace("count = 40", "count = 600")
+    .replace("[outputs.tip]", '[sampling]\nmethod = "continuation"\n[outputs.tip]')
+)
+"""The same numbers side by side, up and then down: each run starts where the last one ended."""
 CASE = Path(__file__).parents[1] / "cases" / "sdnl32" / "case.toml"
 
 
@@ -90,9 +97,10 @@ def main() -> int:
     """Kill, resume, compare; return the exit status."""
     wanted = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     chance = random.Random(1)
-    by_core = survives(STUDY, wanted // 2, chance)
-    by_processes = survives(STUDY + MEAN, wanted - wanted // 2, chance)
-    return 0 if by_core and by_processes else 1
+    third = wanted // 3
+    kinds = {STUDY: third, STUDY + MEAN: third, FOLLOWED: wanted - 2 * third}
+    survived = [survives(text, kills, chance) for text, kills in kinds.items()]
+    return 0 if all(survived) else 1
 
 
 if __name__ == "__main__":
