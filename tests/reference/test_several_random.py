@@ -43,6 +43,11 @@ def test_a_stiff_stop_resists_all_of_a_force_but_what_moves_it() -> None:
     assert problem.solve().energy_residual() < 1e-14
 
 
+def test_a_slow_motion_that_no_force_drives_beside_forces_on_others() -> None:
+    # Mirrored stops push two of three modes; the third, damped critically, is not pushed at all.
+    check(random_several(30300))
+
+
 @pytest.mark.parametrize("seed", [2, 3, 4, 6, 7, 10, 14, 17, 21, 22])
 def test_random_problem_of_coupled_modes(seed: int) -> None:
     check(random_coupled(seed))

@@ -67,8 +67,9 @@ impl Drive {
     pub(crate) fn constant(force: &Mat<c64>, own: &Mat<c64>, duration: f64) -> Self {
         let unit = own.norm_l2().max(1.0 / duration);
         let size = force.norm_l2().max(f64::MIN_POSITIVE);
+        // One factor after the other: together they are infinite where there is no force.
         Self {
-            gains: Mat::from_fn(force.nrows(), 1, |r, _| force[(r, 0)] * (unit / size)),
+            gains: Mat::from_fn(force.nrows(), 1, |r, _| force[(r, 0)] / size * unit),
             generator: Mat::zeros(1, 1),
             values: vec![Complex::real(size / unit)],
         }
@@ -319,4 +320,25 @@ fn growth(matrix: &[Complex<f64>], size: usize) -> f64 {
 
 pub(crate) fn complex(z: c64) -> Complex<f64> {
     Complex::new(z.re, z.im)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drive_gives_the_force_whatever_its_size() {
+        let own = Mat::from_fn(2, 2, |r, c| c64::new(30.0 * r as f64 - 2.0, c as f64));
+        for size in [0.0, 1e-310, 1e-200, 1.0, 1e200] {
+            let force = Mat::from_fn(2, 1, |r, _| c64::new(size * r as f64, size));
+            let drive = Drive::constant(&force, &own, 1.0);
+            for r in 0..2 {
+                let found = drive.gains[(r, 0)] * c64::new(drive.values[0].re, 0.0);
+                assert!(
+                    (found - force[(r, 0)]).norm() <= 1e-15 * size,
+                    "{found} of {size}"
+                );
+            }
+        }
+    }
 }
