@@ -269,4 +269,4 @@ def test_what_needs_modes_says_so() -> None:
         swung(model, initial=bs.StaticState(laws=[stop]))
     run = bs.simulate(swung(model), "newmark", dt=1e-5)
     with pytest.raises(bs.InputError, match="needs modes"):
-        bs.recovery(run)
+        bs.periodicity(run, 1e-3)

@@ -7,14 +7,12 @@ from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING
 
 from bumpstop.arguments import FloatArray, Vector, name, one_of
-from bumpstop.loads.inertia import mass_times
-from bumpstop.loads.load import SingleLoad
+from bumpstop.loads.inertia import InertialLoad, mass_times
 from bumpstop.loads.moving_supports import MovingSupports
 from bumpstop.loads.time import TimeFunction
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
-    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["FRAMES", "BaseMotion"]
@@ -23,7 +21,7 @@ FRAMES = ("relative", "absolute")
 
 
 @dataclass(frozen=True)
-class BaseMotion(SingleLoad, MovingSupports):
+class BaseMotion(InertialLoad, MovingSupports):
     """A translation of all supports, such as an earthquake's; stops move with the supports.
 
     In the frame of the supports every mass feels their acceleration as an inertia force: the
@@ -98,10 +96,6 @@ class BaseMotion(SingleLoad, MovingSupports):
         """
         return -mass_times(self.size, basis)
 
-    def nodal_force(self, model: LinearModel) -> FloatArray:
-        """Return the inertia force on each dof (dofs,) where the function of time is one."""
-        return -(model.mass @ self.field(model))
-
-    def inside(self, cut: Cut) -> FloatArray:
-        """Return what the inertia of an element does inside it, (r, 1)."""
-        return -cut.of_inertia(self.field(cut.model).reshape(-1, 1))
+    def pull(self, model: LinearModel) -> FloatArray:
+        """Return the acceleration that masses feel at each dof (dofs,), against the base's."""
+        return -self.field(model)

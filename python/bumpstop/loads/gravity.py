@@ -6,20 +6,18 @@ from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING
 
 from bumpstop.arguments import FloatArray, Vector, name, vector
-from bumpstop.loads.inertia import mass_times
-from bumpstop.loads.load import SingleLoad
+from bumpstop.loads.inertia import InertialLoad, mass_times
 
 if TYPE_CHECKING:
     from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
-    from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
 
 __all__ = ["Gravity"]
 
 
 @dataclass(frozen=True)
-class Gravity(SingleLoad):
+class Gravity(InertialLoad):
     """The weight of the structure, from t = 0 on: the mass matrix times an acceleration.
 
     Parameters
@@ -63,10 +61,6 @@ class Gravity(SingleLoad):
         """
         return mass_times(self.acceleration, basis)
 
-    def nodal_force(self, model: LinearModel) -> FloatArray:
-        """Return the weight on each dof of a model, (dofs,)."""
-        return model.mass @ model.rigid_field(translation=self.acceleration)
-
-    def inside(self, cut: Cut) -> FloatArray:
-        """Return what the weight of an element does inside it, (r, 1)."""
-        return cut.of_inertia(cut.model.rigid_field(translation=self.acceleration).reshape(-1, 1))
+    def pull(self, model: LinearModel) -> FloatArray:
+        """Return the acceleration that masses feel at each dof, (dofs,)."""
+        return model.rigid_field(translation=self.acceleration)

@@ -19,7 +19,7 @@ from bumpstop.structure.sparse import IndexArray, SparseMatrix
 if TYPE_CHECKING:
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["FullMatrices", "FullModel"]
+__all__ = ["FullMatrices", "FullModel", "numbers_of"]
 
 MASSES = ("consistent", "lumped")
 MOST_DENSE = 2_000_000
@@ -50,9 +50,12 @@ class FullModel(ModalBasis):
     ----------
     matrices
         Mass, damping and stiffness of the independent dofs.
+    lumped
+        Whether the masses are lumped.
     """
 
     matrices: FullMatrices = field(kw_only=True, repr=False)
+    lumped: bool = field(default=False, kw_only=True)
 
     unreduced: ClassVar[bool] = True
 
@@ -111,12 +114,19 @@ class FullModel(ModalBasis):
             omega2=unknown,
             damping_ratio=unknown,
             dofs=structure.dofs,
-            shapes=_array(shapes),
-            mass_rows=_array(moved),
+            shapes=numbers_of(shapes),
+            mass_rows=numbers_of(moved),
             model=structure,
             labels=tuple(" ".join(structure.dofs[dof]) for dof in structure.free),
             matrices=matrices,
+            lumped=mass == "lumped",
         )
+
+    @property
+    def whole_mass(self) -> SparseMatrix:
+        """The masses of all dofs, those that supports hold too."""
+        assert self.model is not None  # made from one
+        return lumped_mass(self.model) if self.lumped else self.model.mass
 
     def project_field(self, field: FloatArray) -> FloatArray:
         """Return the independent dofs of a field, (N,), given for each of ``dofs``."""
@@ -136,7 +146,7 @@ class FullModel(ModalBasis):
         )
 
 
-def _array(matrix: SparseMatrix) -> FloatArray:
+def numbers_of(matrix: SparseMatrix) -> FloatArray:
     """Return a matrix as an array; as SciPy's sparse one, which is read alike, if it is large."""
     if matrix.shape[0] * matrix.shape[1] <= MOST_DENSE:
         return matrix.to_dense()

@@ -22,6 +22,7 @@ from bumpstop.post.moving import moving_fields
 if TYPE_CHECKING:
     from bumpstop.laws.coordinate import Coordinate
     from bumpstop.modal.basis import ModalBasis
+    from bumpstop.problem import Load
     from bumpstop.response import Response
     from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
@@ -42,7 +43,6 @@ class Forces:
     response: Response
 
     def __post_init__(self) -> None:
-        self.basis.require_modes("basis")
         if not self.basis.has_masses:
             hint = "make the basis from a structure or from matrices"
             raise InputError("forces need the masses of a structure", key="basis", hint=hint)
@@ -79,13 +79,17 @@ class Forces:
 
         Inertia forces and modal damping are spread as masses are.
         """
-        spreading = -self.response.motion(2, times).T
-        spreading -= self._given_damping @ self.response.motion(1, times).T
-        total = cut.of_inertia(self.basis.shapes) @ spreading
+        total = self._spread_inside(cut, times)
         for each in self.local:
             if each.inside is not None:
                 total += each.inside(cut, times)
         return total
+
+    def _spread_inside(self, cut: Cut, times: FloatArray) -> FloatArray:
+        """Return what is spread as masses are does inside an element, (r, time)."""
+        spreading = -self.response.motion(2, times).T
+        spreading -= self._given_damping @ self.response.motion(1, times).T
+        return cut.of_inertia(self.basis.shapes) @ spreading
 
     def modal_damping(self, times: FloatArray) -> FloatArray:
         """Return the forces of the damping that modes were given by ratios, (dofs, time).
@@ -118,26 +122,31 @@ class Forces:
 
     @cached_property
     def _mass_shapes(self) -> FloatArray:
+        """The forces on all dofs that push one coordinate each, by one, (dofs, N)."""
         return self.model.mass @ self.basis.shapes
 
     def _loads(self) -> Iterator[ForceField]:
-        duration = self.response.problem.duration
         for load in self.response.problem.loads:
-            if isinstance(load, SupportMotion):
-                yield self._support_forces(load)
-                continue
-            if isinstance(load, MovingForce):
-                yield from moving_fields(load, self.basis, self._mass_shapes, duration)
-                continue
-            components = load.components(self.basis)
-            fields = getattr(load, "nodal_forces", None)
-            if fields is None:
-                what = "says nothing of its forces on the nodes"
-                raise InputError(what, key=f"loads.{load.name}")
-            sizes = sums([functions for _, functions in components], duration)
-            inside = getattr(load, "inside", None)
-            own = None if inside is None else spread(inside, sizes)
-            yield ForceField("load", fields(self.model), sizes, own)
+            yield from self._load(load)
+
+    def _load(self, load: Load) -> Iterator[ForceField]:
+        """Yield the forces of a load."""
+        duration = self.response.problem.duration
+        if isinstance(load, SupportMotion):
+            yield self._support_forces(load)
+            return
+        if isinstance(load, MovingForce):
+            yield from moving_fields(load, self.basis, self._mass_shapes, duration)
+            return
+        components = load.components(self.basis)
+        fields = getattr(load, "nodal_forces", None)
+        if fields is None:
+            what = "says nothing of its forces on the nodes"
+            raise InputError(what, key=f"loads.{load.name}")
+        sizes = sums([functions for _, functions in components], duration)
+        inside = getattr(load, "inside", None)
+        own = None if inside is None else spread(inside, sizes)
+        yield ForceField("load", fields(self.model), sizes, own)
 
     def _support_forces(self, load: SupportMotion) -> ForceField:
         """Return the forces on what moves against supports that carry it along, by its inertia."""

@@ -23,6 +23,7 @@ from bumpstop.labelled import over_time, time_coordinate
 from bumpstop.modal.unit_motion import unit_motion
 from bumpstop.post.force_field import ForceField
 from bumpstop.post.forces import Forces
+from bumpstop.post.full_forces import FullForces
 from bumpstop.post.of_run import of_run
 from bumpstop.projection import along
 from bumpstop.quantities import dof_units
@@ -65,12 +66,14 @@ def recovery(response: Response, *, static_correction: bool = True) -> Recovery:
     response
         A run whose basis was made from a structure or from matrices.
     static_correction
-        Add what the modes left out do under the forces of the run, taken as static.
+        Add what the modes left out do under the forces of the run, taken as static. Of full
+        models, what loads and inertia do between the nodes is all that there is to add.
 
     Raises
     ------
     InputError
-        If the basis was not made from a structure.
+        If the basis was not made from a structure, or a full model has kept the motion of a few
+        dofs alone.
 
     Examples
     --------
@@ -105,7 +108,8 @@ class Recovery:
     forces: Forces = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "forces", Forces(self.response))
+        kind = FullForces if self.response.problem.basis.unreduced else Forces
+        object.__setattr__(self, "forces", kind(self.response))
 
     def displacement(self, node: str, dof: str) -> xr.DataArray:
         """Return the displacement of a node or of a point along a beam, in m or rad.
@@ -215,7 +219,8 @@ class Recovery:
         """Return what supports, relations and links do to a node: ``dx`` ... in N, ``drx`` in N m.
 
         It is what all other forces at the node lack for equilibrium, and so nothing but
-        rounding at a node that is free, if there is static correction.
+        rounding at a node that is free, if there is static correction; of a full model, what
+        its step method leaves between two steps.
 
         Raises
         ------
