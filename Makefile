@@ -59,6 +59,7 @@ bench: $(STAMPS)/byte-code $(STAMPS)/dev $(STAMPS)/bench ## Measure the speed be
 	$(BIN)/python benchmarks/assembly.py
 	$(BIN)/python benchmarks/full_model.py
 	$(BIN)/python benchmarks/explicit_step.py
+	$(BIN)/python benchmarks/friction.py
 
 docs: $(STAMPS)/core $(STAMPS)/docs ## Build the documentation, running its examples
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet \

@@ -68,7 +68,7 @@ class Rattling:
     def contacts(self) -> int:
         """Return how many contacts a run has."""
         _, history = self.run(STEPS)
-        return sum(len(history.impacts(stop)) for stop in range(len(self.gaps)))
+        return sum(len(history.impacts(stop)["start"]) for stop in range(len(self.gaps)))
 
 
 def seconds_of_product(matrix: Matrix, vector: Matrix) -> float:
