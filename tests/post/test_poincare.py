@@ -85,3 +85,17 @@ def test_refuses() -> None:
         bs.periodicity(run, 0.6)
     with pytest.raises(bs.InputError, match="must be positive"):
         bs.stroboscopic_section(run, "P", "dx", 0.0)
+
+
+@pytest.mark.parametrize(
+    ("runs", "said"),
+    [
+        (5, "runs: must be responses by the value of a parameter"),
+        ([1.0], "runs: must be pairs"),
+        ([(1.0, 2.0)], "must be a response"),
+        ({"gap": 3}, "must be a response"),
+    ],
+)
+def test_bifurcation_refuses(runs: object, said: str) -> None:
+    with pytest.raises(bs.InputError, match=said):
+        bs.bifurcation(runs, lambda run: run, parameter="gap")  # type: ignore[arg-type]

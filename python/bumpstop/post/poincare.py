@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,7 @@ import numpy as np
 from bumpstop.arguments import FloatArray, count, finite, not_negative, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.post.impacts import impacts_of
-from bumpstop.post.of_run import of_run
+from bumpstop.post.of_run import check_run, of_run
 from bumpstop.quantities import dof_units
 from bumpstop.structure.dofs import DOFS
 
@@ -140,6 +140,11 @@ def bifurcation(
     pandas.DataFrame
         Columns ``parameter`` (by its name) and ``value``, a row a point.
 
+    Raises
+    ------
+    InputError
+        If ``runs`` has no pairs of a finite value and a response.
+
     Examples
     --------
     >>> import bumpstop as bs
@@ -157,16 +162,29 @@ def bifurcation(
     """
     import pandas as pd
 
-    pairs = runs.items() if isinstance(runs, Mapping) else runs
     values: list[float] = []
     points: list[FloatArray] = []
-    for value, response in pairs:
+    for value, response in _pairs(runs):
+        check_run(response)
         found = np.atleast_1d(np.asarray(section(response), dtype=np.float64)).ravel()
         values += [finite(parameter, value)] * len(found)
         points.append(found)
     table = pd.DataFrame({parameter: values, "value": np.concatenate([np.empty(0), *points])})
     table.attrs["units"] = {parameter: units}
     return table
+
+
+def _pairs(
+    runs: Mapping[float, Response] | Iterable[tuple[float, Response]],
+) -> Iterator[tuple[float, Response]]:
+    """Yield the value of each run, and the run."""
+    if not isinstance(runs, Iterable):
+        what = "must be responses by the value of a parameter, or pairs of both"
+        raise InputError(what, key="runs", value=runs)
+    for pair in runs.items() if isinstance(runs, Mapping) else runs:
+        if not isinstance(pair, Sequence) or len(pair) != 2:
+            raise InputError("must be pairs of a value and a response", key="runs", value=pair)
+        yield pair
 
 
 @dataclass(frozen=True)
