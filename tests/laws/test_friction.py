@@ -103,6 +103,29 @@ def test_the_static_coefficient_breaks_loose_and_the_dynamic_one_resists() -> No
     assert acceleration == pytest.approx(expected, rel=1e-9)
 
 
+def test_a_block_on_a_belt_sticks_and_slips_with_the_period_of_the_closed_form() -> None:
+    """Seen from the belt, which the block sticks to: the far end of its spring moves away.
+
+    The spring is D longer than sliding friction holds when the block breaks loose, and D shorter
+    when it sticks again, with the speed V of the belt at both: slipping takes (pi + 2 p) / w with
+    tan(p) = V / (w D),
+    and sticking 2 D / V.
+    """
+    speed, beyond = 0.05, (0.3 - 0.2) * 10.0 / RATE**2
+    stick = stiff_stick(0.0) | {"friction": {"static": 0.3, "dynamic": 0.2}}
+    still = block(0.0, 0.6, **stick)
+    pull = bs.NodalForce(
+        "pull", node="P", force=(1, 0, 0), time=bs.Polynomial([0.0, RATE**2 * speed])
+    )
+    response = bs.simulate(replace(still, loads=(*still.loads, pull)), "exact")
+    table = response.event_table()
+    loose = np.array(table["time"])[np.array(table["after"]) == "slip forward"]
+    slipping = (math.pi + 2.0 * math.atan(speed / (RATE * beyond))) / RATE
+    period = slipping + 2.0 * beyond / speed
+    assert len(loose) >= 5
+    np.testing.assert_allclose(np.diff(loose)[1:], period, rtol=1e-6)
+
+
 def test_stick_slip_at_the_boundary() -> None:
     """A block that has stopped stays where its stick can turn the force around within the cone.
 
