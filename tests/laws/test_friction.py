@@ -112,7 +112,7 @@ def test_a_block_on_a_belt_sticks_and_slips_with_the_period_of_the_closed_form()
     and sticking 2 D / V.
     """
     speed, beyond = 0.05, (0.3 - 0.2) * 10.0 / RATE**2
-    stick = stiff_stick(0.0) | {"friction": {"static": 0.3, "dynamic": 0.2}}
+    stick: dict[str, Any] = stiff_stick(0.0) | {"friction": {"static": 0.3, "dynamic": 0.2}}
     still = block(0.0, 0.6, **stick)
     pull = bs.NodalForce(
         "pull", node="P", force=(1, 0, 0), time=bs.Polynomial([0.0, RATE**2 * speed])
