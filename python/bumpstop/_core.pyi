@@ -430,12 +430,14 @@ def simulate(
     tolerances: tuple[float, float | None] | None = None,
     parameters: Mapping[str, float] | None = None,
     progress: Callable[[float], None] | None = None,
+    exact_flights: bool = True,
 ) -> History:
     """Integrate; releases the GIL.
 
     ``method`` is ``exact``, one with fixed steps, which needs ``dt`` and may have ``parameters``,
     ``rk32``, ``rk54``, ``dop853`` or ``exprk43``, which need ``tolerances``, the relative and the
-    absolute one, or ``adaptive_central_difference``, with its own parameter.
+    absolute one, or ``adaptive_central_difference``, with its own parameter. Those with tolerances
+    leave flights between smooth contacts to the exact method if ``exact_flights``.
     ``progress`` is called with the fraction done, about ten times a second.
     """
 

@@ -61,14 +61,14 @@ PARAMETERS: dict[str, dict[str, Range]] = {
 """Parameters of the methods that have any beside a step or a tolerance."""
 METHODS = ("auto", "exact", *FIXED_STEP_METHODS, *ADAPTIVE_METHODS)
 OPTIONS: dict[str, tuple[str, ...]] = {
-    "auto": ("rtol", "atol"),
+    "auto": ("rtol", "atol", "exact_flights"),
     "exact": (),
     **dict.fromkeys(FIXED_STEP_METHODS, ("dt", "beyond_stability_limit")),
     **{
         name: ("dt", "beyond_stability_limit", *known)
         for name, known in ONE_STEP_PARAMETERS.items()
     },
-    **dict.fromkeys(TOLERANCE_METHODS, ("rtol", "atol")),
+    **dict.fromkeys(TOLERANCE_METHODS, ("rtol", "atol", "exact_flights")),
     "adaptive_central_difference": ("points_per_period",),
 }
 """What each method can be told; ``"auto"`` has no use for it where it takes the exact one."""

@@ -70,6 +70,7 @@ def simulate(
     points_per_period: float | None = None,
     rtol: float | None = None,
     atol: float | None = None,
+    exact_flights: bool | None = None,
     progress: Callable[[float], None] | None = None,
     **unknown: object,
 ) -> Response:
@@ -114,6 +115,10 @@ def simulate(
         Absolute tolerance of the Runge-Kutta pairs, in the units of the modal displacements and of
         their rates; where left out, displacements, or velocities, below a tenth of the
         largest among them are measured by that.
+    exact_flights
+        Whether a method with tolerances leaves flights to the exact one, where some law keeps that
+        from taking the whole problem: stretches of time in which no contact pushes and no smooth
+        law acts. True where left out; False is for comparisons.
     progress
         Called with the fraction done, between 0 and 1, about ten times a second.
     unknown
@@ -160,7 +165,7 @@ def simulate(
         raise InputError(what, key="progress", value=progress, hint=hint)
     chosen, reason = _choose(method, problem)
     if chosen == "exact" and method == "auto":
-        rtol = atol = None
+        rtol = atol = exact_flights = None
     beyond = beyond_stability_limit or None
     of_scheme = {
         "beta": beta,
@@ -170,9 +175,12 @@ def simulate(
         "theta": theta,
         "points_per_period": points_per_period,
     }
-    given = {"dt": dt, "beyond_stability_limit": beyond, "rtol": rtol, "atol": atol, **of_scheme}
+    of_tolerance = {"rtol": rtol, "atol": atol, "exact_flights": exact_flights}
+    given = {"dt": dt, "beyond_stability_limit": beyond, **of_tolerance, **of_scheme}
     check_options(chosen, unknown, given)
     check_method(chosen, problem)
+    if exact_flights is not None:
+        exact_flights = boolean("exact_flights", exact_flights)
     parameters = checked_parameters(chosen, of_scheme)
     tolerances = _checked_tolerances(chosen, rtol, atol)
     for line in problem.warnings:
@@ -199,6 +207,7 @@ def simulate(
             tolerances,
             parameters,
             progress,
+            exact_flights is not False,
         )
     except _core.CoreError as error:
         _blame_scale(chosen, problem, error)
@@ -208,7 +217,13 @@ def simulate(
     else:
         _check_numbers(chosen, problem, history)
     relative, absolute = tolerances or (None, None)
-    told = {"dt": step, "rtol": relative, "atol": absolute, **parameters}
+    told = {
+        "dt": step,
+        "rtol": relative,
+        "atol": absolute,
+        "exact_flights": exact_flights,
+        **parameters,
+    }
     options = {name: value for name, value in told.items() if value is not None}
     return Response(problem, history, instants=problem.grid, method_reason=reason, options=options)
 

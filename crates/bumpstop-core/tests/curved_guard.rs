@@ -185,6 +185,7 @@ fn adaptive(pair: PairName) -> Method {
     let tolerances = Tolerances {
         relative: 1e-12,
         absolute: None,
+        exact_flights: false,
     };
     Method::Adaptive(Adaptive::RungeKutta(pair, tolerances))
 }

@@ -30,7 +30,8 @@ pub(crate) type Parameters = HashMap<String, f64>;
 /// Integrates a problem; releases the GIL.
 #[pyfunction]
 #[pyo3(signature = (system, laws, forcing, displacement, velocity, duration, method, dt=None,
-                    beyond_stability_limit=false, tolerances=None, parameters=None, progress=None))]
+                    beyond_stability_limit=false, tolerances=None, parameters=None, progress=None,
+                    exact_flights=true))]
 #[allow(clippy::too_many_arguments)] // mirrors the Python signature
 pub fn simulate(
     py: Python<'_>,
@@ -46,8 +47,14 @@ pub fn simulate(
     tolerances: Option<(f64, Option<f64>)>,
     parameters: Option<Parameters>,
     progress: Option<Py<PyAny>>,
+    exact_flights: bool,
 ) -> PyResult<History> {
     let parameters = parameters.unwrap_or_default();
+    let tolerances = tolerances.map(|(relative, absolute)| Tolerances {
+        relative,
+        absolute,
+        exact_flights,
+    });
     let method = method_named(method, dt, beyond_stability_limit, tolerances, &parameters)?;
     let problem = Problem::new(
         system.0.clone(),
@@ -146,7 +153,7 @@ fn method_named(
     name: &str,
     dt: Option<f64>,
     beyond_stability_limit: bool,
-    tolerances: Option<(f64, Option<f64>)>,
+    tolerances: Option<Tolerances>,
     parameters: &Parameters,
 ) -> PyResult<Method> {
     let step = || {
@@ -158,9 +165,8 @@ fn method_named(
     };
     let pair = PairName::ALL.into_iter().find(|pair| pair.name() == name);
     if pair.is_some() || name == adaptive::exponential::NAME {
-        let (relative, absolute) = tolerances
+        let tolerances = tolerances
             .ok_or_else(|| PyValueError::new_err(format!("method '{name}' needs tolerances")))?;
-        let tolerances = Tolerances { relative, absolute };
         return Ok(Method::Adaptive(match pair {
             Some(pair) => Adaptive::RungeKutta(pair, tolerances),
             None => Adaptive::Exponential(tolerances),

@@ -25,6 +25,9 @@ pub struct Tolerances {
     /// Error that is let pass besides, in m and m/s of the modal coordinates; without one, numbers
     /// count as no smaller than [`SMALL`] of the largest of their kind.
     pub absolute: Option<f64>,
+    /// Whether flights, in which no contact pushes and nothing smooth acts, are solved in closed
+    /// form where the exact method does not take the problem.
+    pub exact_flights: bool,
 }
 
 /// The finest relative tolerance: below it rounding rules the error estimate.
@@ -111,6 +114,13 @@ impl Control {
         self.set_scales(layout);
     }
 
+    /// Sees how large displacements and velocities have been.
+    pub(super) fn see(&mut self, motion: &[f64]) {
+        for (size, x) in self.sizes.iter_mut().zip(motion) {
+            *size = size.max(x.abs());
+        }
+    }
+
     /// The error that is allowed in each number before the works, in the measure taken last.
     pub(super) fn scales(&self) -> &[f64] {
         &self.scales
@@ -152,9 +162,7 @@ impl Control {
 
     /// The step after one that is good.
     fn accept(&mut self, h: f64, error: f64, end: &[f64]) -> f64 {
-        for (size, x) in self.sizes.iter_mut().zip(end) {
-            *size = size.max(x.abs());
-        }
+        self.see(end);
         let [so_far, now] = &mut self.floors;
         for (floor, now) in so_far.iter_mut().zip(now) {
             *floor = floor.max(*now);
@@ -187,7 +195,9 @@ impl Control {
 
     /// What the error of each number is measured by.
     fn set_scales(&mut self, layout: &Layout) {
-        let Tolerances { relative, absolute } = self.tolerances;
+        let Tolerances {
+            relative, absolute, ..
+        } = self.tolerances;
         let (motion, memories) = self.scales.split_at_mut(2 * layout.modes);
         for kind in motion.chunks_mut(layout.modes) {
             let largest = kind.iter().fold(0.0f64, |largest, x| largest.max(*x));

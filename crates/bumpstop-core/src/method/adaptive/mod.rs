@@ -11,6 +11,7 @@
 pub mod central_difference;
 mod control;
 pub mod exponential;
+mod flying;
 mod pair;
 mod pieces;
 mod runge_kutta;
@@ -22,6 +23,7 @@ pub use pair::PairName;
 
 use super::fixed_step::check_forces;
 use super::instant::{self, Moment};
+use super::piecewise_linear::Flights;
 use super::polynomial_steps::{
     Crossing, Equations, Layout, PolynomialRecord, Step, Watch, longest_step,
 };
@@ -29,7 +31,7 @@ use super::{Observer, check_not_stepped, observe};
 use crate::energy::{self, Growth};
 use crate::error::{Error, Result};
 use crate::history::{Event, History};
-use crate::law::{Law, Local, LocalMotion, State};
+use crate::law::{Guard, Law, Local, LocalMotion, State};
 use crate::problem::Problem;
 use central_difference::CentralDifference;
 use exponential::Exponential;
@@ -99,18 +101,19 @@ pub fn simulate<L: Law>(
     check_not_stepped(name, &problem.laws)?;
     let (states, equations, numbers) = start(problem);
     let first = first_step(problem);
+    let flights = flying::flights(problem, method);
     let (record, events) = match method {
         Adaptive::RungeKutta(pair, tolerances) => {
             let formula = RungeKutta::new(pair.pair(), tolerances, first, numbers, &equations);
-            Run::new(formula, states, equations).advance(observer)
+            Run::new(formula, states, equations, flights).advance(observer)
         }
         Adaptive::Exponential(tolerances) => {
             let formula = Exponential::new(tolerances, first, numbers, &equations);
-            Run::new(formula, states, equations).advance(observer)
+            Run::new(formula, states, equations, flights).advance(observer)
         }
         Adaptive::CentralDifference(resolution) => {
             let formula = CentralDifference::new(resolution, numbers, &equations);
-            Run::new(formula, states, equations).advance(observer)
+            Run::new(formula, states, equations, flights).advance(observer)
         }
     }?;
     Ok(History::of_polynomials(problem, name, record, events))
@@ -152,13 +155,27 @@ struct Run<'a, L, S> {
     longest: f64,
     growth: Growth,
     record: PolynomialRecord,
+    /// What carries the motion where nothing smooth acts, if that is wanted.
+    flights: Option<Flights<'a, L>>,
+    /// Sizes of displacements and velocities in the flight that has just ended, one behind the
+    /// other; empty where none has.
+    landed: Vec<f64>,
+    /// Stretches of time that were gone so far, steps and flights.
+    stretches: usize,
     events: Vec<Event>,
+    /// The laws that have switched at the present instant, each with the guard that was zero.
+    fired: Vec<(usize, Guard)>,
     /// Switches since time went on.
     at_once: usize,
 }
 
 impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
-    fn new(mut stepping: S, states: Vec<State>, equations: Equations<'a, L>) -> Self {
+    fn new(
+        mut stepping: S,
+        states: Vec<State>,
+        equations: Equations<'a, L>,
+        flights: Option<Flights<'a, L>>,
+    ) -> Self {
         let (problem, degree) = (equations.problem, stepping.degree());
         let layout = &equations.layout;
         Self {
@@ -171,7 +188,11 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
             time: 0.0,
             h: first_step(problem),
             longest: longest_step(problem),
+            flights,
+            landed: Vec::new(),
+            stretches: 0,
             events: Vec::new(),
+            fired: Vec::new(),
             at_once: 0,
             equations,
         }
@@ -179,23 +200,41 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
 
     fn advance(mut self, observer: Observer<'_>) -> Result<(PolynomialRecord, Vec<Event>)> {
         let duration = self.problem.duration;
+        observe(observer, self.time)?;
         while self.time < duration {
             // Loads may change their course at a knot.
             let limit = self.equations.turn(self.time).min(duration);
+            if self.fly(limit)? {
+                self.look(observer)?;
+                continue;
+            }
             self.stepping.start(self.time, &mut self.equations);
             while self.time < limit {
-                let steps = self.record.steps();
-                if steps.is_multiple_of(STEPS_BETWEEN_OBSERVATIONS) {
-                    observe(observer, self.time)?;
-                }
                 let h = self.good_step(limit)?;
-                self.finish(h, limit)?;
-                if steps.is_multiple_of(STEPS_BETWEEN_LOOKS) || self.time >= duration {
-                    self.check_growth()?;
+                let has_switched = self.finish(h, limit)?;
+                self.look(observer)?;
+                if has_switched && self.may_fly() {
+                    break;
                 }
             }
         }
+        if let Some(flights) = self.flights {
+            self.record.keep_flights(flights.record());
+        }
         Ok((self.record, self.events))
+    }
+
+    /// Looks after a run now and then.
+    fn look(&mut self, observer: &mut dyn FnMut(f64) -> bool) -> Result<()> {
+        let is_over = self.time >= self.problem.duration;
+        if self.stretches.is_multiple_of(STEPS_BETWEEN_LOOKS) || is_over {
+            self.check_growth()?;
+        }
+        self.stretches += 1;
+        if self.stretches.is_multiple_of(STEPS_BETWEEN_OBSERVATIONS) {
+            observe(observer, self.time)?;
+        }
+        Ok(())
     }
 
     /// Tries steps until one is good enough; returns its width.
@@ -251,8 +290,8 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
         }
     }
 
-    /// Keeps a step up to the first switch in it, and switches.
-    fn finish(&mut self, h: f64, limit: f64) -> Result<()> {
+    /// Keeps a step up to the first switch in it, and switches; returns whether there was one.
+    fn finish(&mut self, h: f64, limit: f64) -> Result<bool> {
         let start = self.time;
         self.stepping.follow(start, h, &mut self.equations);
         let count = self.stepping.pieces().count();
@@ -264,6 +303,7 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
                 time: begun,
                 h: width,
                 dense,
+                rounded: &self.landed,
             };
             let Equations { layout, loads, .. } = &self.equations;
             let crossing = (self.watch).first(self.problem, &self.states, layout, loads, step);
@@ -277,6 +317,8 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
                 self.record
                     .add(self.time, width, after, dense, &self.states)?;
                 self.at_once = 0;
+                self.fired.clear();
+                self.landed.clear();
             }
             self.time = after;
             if let Some(crossing) = crossing {
@@ -284,12 +326,12 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
                 self.stepping.stop_at(piece, crossing.theta);
                 self.switch(crossing)?;
                 self.stepping.start(self.time, &mut self.equations);
-                return Ok(());
+                return Ok(true);
             }
         }
         self.count_step(start);
         self.stepping.go_on();
-        Ok(())
+        Ok(false)
     }
 
     /// Counts a step that time went on in.
@@ -302,10 +344,6 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
     /// Switches a law whose guard has reached zero.
     fn switch(&mut self, crossing: Crossing) -> Result<()> {
         let (problem, law) = (self.problem, crossing.law);
-        self.at_once += 1;
-        if self.at_once > MOST_SWITCHES_AT_ONCE * problem.laws.len() {
-            return Err(Error::EndlessSwitching { time: self.time });
-        }
         let layout = &self.equations.layout;
         let numbers = self.stepping.numbers();
         let before = layout.state(law, self.states[law], numbers);
@@ -325,17 +363,35 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
             motion
         };
         let after = which.next_state(before, crossing.guard, acting);
-        let [position, _] = problem.local(law, self.time, displacement, velocity);
-        numbers[layout.dissipated(law)] += which.switch_loss(before, after, &position);
-        layout.remember(law, after, numbers);
-        self.events.push(Event {
+        let guard = which.guard(before, crossing.guard);
+        let event = Event {
             time: self.time,
             law,
-            guard: which.guard(before, crossing.guard).name,
+            guard: guard.name,
             before,
             after,
-        });
-        self.states[law] = after;
+        };
+        self.take(event, guard)
+    }
+
+    /// Takes note of a switch and lets its law go on in the state that follows.
+    fn take(&mut self, event: Event, guard: Guard) -> Result<()> {
+        let (problem, law) = (self.problem, event.law);
+        self.at_once += 1;
+        if self.at_once > MOST_SWITCHES_AT_ONCE * problem.laws.len() {
+            return Err(Error::EndlessSwitching { time: self.time });
+        }
+        let layout = &self.equations.layout;
+        let numbers = self.stepping.numbers();
+        let [displacement, velocity] = layout.motion(numbers);
+        let [position, _] = problem.local(law, self.time, displacement, velocity);
+        numbers[layout.dissipated(law)] +=
+            problem.laws[law].switch_loss(event.before, event.after, &position);
+        layout.remember(law, event.after, numbers);
+        self.events.push(event);
+        self.fired.retain(|(fired, _)| *fired != law);
+        self.fired.push((law, guard));
+        self.states[law] = event.after;
         self.equations.take_states(&self.states);
         Ok(())
     }

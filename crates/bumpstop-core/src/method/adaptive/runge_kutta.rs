@@ -77,6 +77,10 @@ impl<L: Law> Stepping<L> for RungeKutta {
         equations.rates(time, &self.start, &mut self.stages[0]);
     }
 
+    fn see(&mut self, motion: &[f64]) {
+        self.control.see(motion);
+    }
+
     fn attempt(&mut self, time: f64, h: f64, equations: &mut Equations<'_, L>) -> Attempt {
         let pair = self.pair;
         for (number, (a, c)) in pair.a.iter().zip(pair.c).enumerate().skip(1) {

@@ -24,6 +24,9 @@ pub(super) trait Stepping<L: Law> {
     /// Starts anew from these: they, the states of laws or the loads have changed.
     fn start(&mut self, time: f64, equations: &mut Equations<'_, L>);
 
+    /// Sees displacements and velocities, one behind the other, that the motion has had elsewhere.
+    fn see(&mut self, _motion: &[f64]) {}
+
     /// Tries a step of width h from a time on.
     fn attempt(&mut self, time: f64, h: f64, equations: &mut Equations<'_, L>) -> Attempt;
 

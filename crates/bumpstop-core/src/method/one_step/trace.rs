@@ -312,6 +312,7 @@ impl<'a, L: Law> Trace<'a, L> {
                 rows: &self.rows,
                 size,
             },
+            rounded: &[],
         };
         let Equations { layout, loads, .. } = &self.equations;
         for (index, (before, after)) in self.states.iter().zip(after).enumerate() {

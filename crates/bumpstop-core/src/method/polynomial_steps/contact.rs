@@ -137,7 +137,9 @@ impl<'a, L: Law> ContactReader<'a, L> {
             self.record.slope(number, time, &mut slopes);
             return slopes.split_off(layout.modes);
         }
-        let Reading { numbers, states } = &self.reading;
+        let Reading {
+            numbers, states, ..
+        } = &self.reading;
         let [displacement, velocity] = layout.motion(numbers);
         let moment = Moment {
             time,

@@ -7,6 +7,7 @@ use super::loads::Loads;
 use super::slopes::slopes;
 use crate::energy::{self, Ledger};
 use crate::law::{Law, Local, Piece, State, project};
+use crate::method::piecewise_linear::Works;
 use crate::problem::Problem;
 use crate::rotation::Turning;
 
@@ -119,6 +120,18 @@ impl Layout {
                 let sizes = law.memory_sizes(&position);
                 to[at - 2 * self.modes..][..MEMORY].copy_from_slice(&sizes);
             }
+        }
+    }
+
+    /// Adds what a stretch of time did that was not integrated.
+    pub(crate) fn add_works(&self, done: &Works, numbers: &mut [f64]) {
+        let works = &mut numbers[self.works..];
+        works[MODAL] += done.modal;
+        works[LOADS] += done.loads;
+        works[CIRCULATORY] += done.circulatory;
+        works[OBSTACLES] += done.obstacles;
+        for (total, law) in works[WORKS..].iter_mut().zip(&done.laws) {
+            *total += law;
         }
     }
 

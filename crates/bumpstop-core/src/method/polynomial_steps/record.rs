@@ -1,4 +1,4 @@
-//! What a run keeps: the polynomial of every step.
+//! What a run keeps: the polynomial of every step, and its flights.
 
 use super::contact::ContactReader;
 use super::dense::{Dense, cubic_rates};
@@ -8,6 +8,7 @@ use crate::energy::{self, Ledger};
 use crate::error::{Error, Result};
 use crate::impacts::Impact;
 use crate::law::{Law, State};
+use crate::method::piecewise_linear::{FlightRecord, Workspace};
 use crate::problem::Problem;
 
 /// The most memory that a record may take, in bytes.
@@ -21,7 +22,9 @@ pub struct PolynomialRecord {
     /// Steps, some of them in parts that were kept one by one.
     steps: usize,
     list: Vec<Step>,
+    /// The polynomials of steps, and the numbers at the start of flights.
     rows: Vec<f64>,
+    flights: FlightRecord,
     /// States of all laws; steps between two switches share them.
     states: Vec<State>,
     /// Impulses of rigid stops, in order of time.
@@ -33,10 +36,20 @@ pub struct PolynomialRecord {
 pub(crate) struct Step {
     pub start: f64,
     pub end: f64,
-    /// The width of the polynomial, which may go on beyond the end.
-    h: f64,
+    course: Course,
+    /// Where its rows begin.
+    rows: usize,
     /// Where its states begin.
     states: usize,
+}
+
+/// How the motion goes on in a step.
+#[derive(Debug, Clone, Copy)]
+enum Course {
+    /// A polynomial of this width in s, which may go on beyond the end.
+    Polynomial(f64),
+    /// The flight of this number.
+    Flight(usize),
 }
 
 impl PolynomialRecord {
@@ -47,6 +60,7 @@ impl PolynomialRecord {
             steps: 0,
             list: Vec::new(),
             rows: Vec::new(),
+            flights: FlightRecord::default(),
             states: Vec::new(),
             percussions: Vec::new(),
         }
@@ -78,6 +92,11 @@ impl PolynomialRecord {
         self.steps += 1;
     }
 
+    /// Takes the flights that were added by their numbers.
+    pub(crate) fn keep_flights(&mut self, flights: FlightRecord) {
+        self.flights = flights;
+    }
+
     /// Keeps a step, or a part of one, of width h up to a time.
     ///
     /// # Errors
@@ -90,7 +109,31 @@ impl PolynomialRecord {
         dense: Dense<'_>,
         states: &[State],
     ) -> Result<()> {
-        self.make_room(dense.rows.len())
+        self.add_course([start, end], Course::Polynomial(h), dense.rows, states)
+    }
+
+    /// Keeps a flight, by its number, with the numbers at its start.
+    ///
+    /// # Errors
+    /// [`Error::LongRecord`] where there is no more room.
+    pub(crate) fn add_flight(
+        &mut self,
+        span: [f64; 2],
+        number: usize,
+        numbers: &[f64],
+        states: &[State],
+    ) -> Result<()> {
+        self.add_course(span, Course::Flight(number), numbers, states)
+    }
+
+    fn add_course(
+        &mut self,
+        [start, end]: [f64; 2],
+        course: Course,
+        rows: &[f64],
+        states: &[State],
+    ) -> Result<()> {
+        self.make_room(rows.len())
             .ok_or(Error::LongRecord { time: start })?;
         let before = self.list.last().map(|step| step.states);
         let states_at = match before.filter(|at| &self.states[*at..] == states) {
@@ -100,13 +143,14 @@ impl PolynomialRecord {
                 self.states.len() - states.len()
             }
         };
-        self.rows.extend_from_slice(dense.rows);
         self.list.push(Step {
             start,
             end,
-            h,
+            course,
+            rows: self.rows.len(),
             states: states_at,
         });
+        self.rows.extend_from_slice(rows);
         Ok(())
     }
 
@@ -134,22 +178,42 @@ impl PolynomialRecord {
         &self.list
     }
 
-    /// All numbers and the laws' states in a step at a time.
+    /// All numbers and the laws' states in a step at a time; works in a flight are those at its start.
     pub(crate) fn read(&self, step: usize, time: f64, moment: &mut Reading) {
         let Step {
-            start, h, states, ..
+            start,
+            course,
+            states,
+            ..
         } = self.list[step];
-        let size = self.layout.size();
-        let rows = (self.degree + 1) * size;
-        let dense = Dense {
-            rows: &self.rows[step * rows..][..rows],
-            size,
-        };
-        dense.at((time - start) / h, &mut moment.numbers);
+        match course {
+            Course::Polynomial(h) => (self.dense(step)).at((time - start) / h, &mut moment.numbers),
+            Course::Flight(number) => {
+                let start = self.numbers_at_start(step);
+                moment.numbers.copy_from_slice(start);
+                let (q, rest) = moment.numbers.split_at_mut(self.layout.modes);
+                let motion = [q, &mut rest[..self.layout.modes]];
+                self.flights.motion(number, time, &mut moment.work, motion);
+            }
+        }
         let known = self.states[states..].iter().enumerate();
         for (to, (law, state)) in moment.states.iter_mut().zip(known) {
             *to = self.layout.state(law, *state, &moment.numbers);
         }
+    }
+
+    /// The polynomial of a step.
+    fn dense(&self, step: usize) -> Dense<'_> {
+        let size = self.layout.size();
+        let rows = (self.degree + 1) * size;
+        Dense {
+            rows: &self.rows[self.list[step].rows..][..rows],
+            size,
+        }
+    }
+
+    fn numbers_at_start(&self, flight: usize) -> &[f64] {
+        &self.rows[self.list[flight].rows..][..self.layout.size()]
     }
 
     /// Room for what is read at one instant.
@@ -157,6 +221,7 @@ impl PolynomialRecord {
         Reading {
             numbers: vec![0.0; self.layout.size()],
             states: vec![State::FIRST; self.layout.memories.len()],
+            work: Workspace::default(),
         }
     }
 
@@ -189,14 +254,11 @@ impl PolynomialRecord {
     /// polynomials are cubics.
     pub(crate) fn slope(&self, step: usize, time: f64, to: &mut [f64]) {
         debug_assert_eq!(self.degree, 3);
-        let Step { start, h, .. } = self.list[step];
-        let size = self.layout.size();
-        let rows = (self.degree + 1) * size;
-        let dense = Dense {
-            rows: &self.rows[step * rows..][..rows],
-            size,
+        let Step { start, course, .. } = self.list[step];
+        let Course::Polynomial(h) = course else {
+            unreachable!("schemes with cubic steps do not fly")
         };
-        cubic_rates(dense, (time - start) / h, h, to);
+        cubic_rates(self.dense(step), (time - start) / h, h, to);
     }
 
     /// The energy ledger at each time.
@@ -214,7 +276,15 @@ impl PolynomialRecord {
         reading: &mut Reading,
     ) -> Ledger {
         self.read(step, time, reading);
-        let Reading { numbers, states } = reading;
+        let Reading {
+            numbers,
+            states,
+            work,
+        } = reading;
+        if let Course::Flight(number) = self.list[step].course {
+            let works = self.flights.works(problem, number, time, work);
+            self.layout.add_works(&works, numbers);
+        }
         self.layout.ledger(problem, time, states, numbers)
     }
 
@@ -243,4 +313,5 @@ impl PolynomialRecord {
 pub(crate) struct Reading {
     pub numbers: Vec<f64>,
     pub states: Vec<State>,
+    work: Workspace,
 }

@@ -35,6 +35,9 @@ pub(crate) struct Step<'a> {
     pub time: f64,
     pub h: f64,
     pub dense: Dense<'a>,
+    /// Sizes of what displacements and velocities at the start, one behind the other, were summed
+    /// of, if that was more than themselves: their rounding goes with them. Else empty.
+    pub rounded: &'a [f64],
 }
 
 /// The polynomials that the dense output is made of, and the laws whose obstacles move.
@@ -164,6 +167,11 @@ impl Watch {
                         sizes[c] += size;
                     }
                 }
+            }
+            let rounded = step.rounded.chunks(row.len());
+            for (sizes, rounded) in track.sizes.iter_mut().zip(rounded) {
+                let parts = row.iter().zip(rounded);
+                sizes[c] += parts.map(|(r, x)| (r * x).abs()).sum::<f64>();
             }
         }
         if let Some(at) = layout.memories[index] {

@@ -183,6 +183,10 @@ impl<L: Law> Stepping<L> for Exponential {
         &mut self.start
     }
 
+    fn see(&mut self, motion: &[f64]) {
+        self.control.see(motion);
+    }
+
     fn start(&mut self, time: f64, equations: &mut Equations<'_, L>) {
         equations.rates(time, &self.start, &mut self.rates);
         self.stages[0].copy_from_slice(&self.rates);
@@ -275,6 +279,7 @@ mod tests {
         let tolerances = Tolerances {
             relative: 0.5,
             absolute: None,
+            exact_flights: false,
         };
         let mut formula = Exponential::new(tolerances, 0.1, numbers, &equations);
         let h = 0.4 / steps as f64;
