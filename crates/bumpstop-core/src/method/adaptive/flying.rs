@@ -16,9 +16,13 @@ use crate::problem::Problem;
 /// Instants of a flight at which a formula sees how large its numbers are.
 const LOOKS: usize = 8;
 
-/// Part of a run's first step that is tried where a flight ends. Forces of contacts may begin with
-/// any power of time, of which an estimate of the error sees little: the step must be short there.
-const LANDING: f64 = 0.1;
+/// Part of a run's first step, or of the flight, that is tried where one ends. Forces of contacts
+/// may begin with any power of time, of which an estimate of the error sees little: the step must
+/// be short there.
+const LANDING: f64 = 0.01;
+
+/// Part of a run's first step that none is shorter than after a flight, however short that was.
+const SHORTEST: f64 = 1e-9;
 
 /// The flights of a run, if a method takes any: where every law is piecewise linear the exact
 /// method takes the whole run, and others are there to be compared with it.
@@ -105,7 +109,6 @@ impl<L: Law, S: Stepping<L>> Run<'_, L, S> {
             self.land(sizes, flight.end - self.time);
         }
         self.time = flight.end;
-        self.h = self.h.min(LANDING * first_step(self.problem));
         self.check_growth()?;
         if let Some((event, guard)) = flight.switch {
             self.take(event, guard)?;
@@ -113,8 +116,8 @@ impl<L: Law, S: Stepping<L>> Run<'_, L, S> {
         Ok(true)
     }
 
-    /// Takes note of what the motion at the end of a flight was summed of. Its phases, and the
-    /// instant, are known to the rounding of the flight's length.
+    /// Goes on with a short step, and takes note of what the motion at the end of a flight was
+    /// summed of: its phases, and the instant, are known to the rounding of the flight's length.
     fn land(&mut self, mut sizes: Vec<f64>, length: f64) {
         let (displacements, velocities) = sizes.split_at_mut(self.equations.layout.modes);
         let omega2 = self.problem.system.omega2();
@@ -122,5 +125,8 @@ impl<L: Law, S: Stepping<L>> Run<'_, L, S> {
             (*q, *v) = (*q + length * *v, *v + length * omega2.abs() * *q);
         }
         self.landed = sizes;
+        let first = first_step(self.problem);
+        let landing = LANDING * first.min(length);
+        self.h = self.h.min(landing).max(SHORTEST * first);
     }
 }
