@@ -6,7 +6,7 @@
 //! linear ones too: the smooth ones set the pace there.
 
 use super::stepping::Stepping;
-use super::{Adaptive, Run, Tolerances, first_step};
+use super::{Adaptive, FINEST, Run, Tolerances, first_step};
 use crate::error::Result;
 use crate::law::{Law, Piece, State};
 use crate::method::piecewise_linear::{Flights, Takeoff};
@@ -21,6 +21,9 @@ const LOOKS: usize = 8;
 /// be short there.
 const LANDING: f64 = 0.01;
 
+/// Part of the relative tolerance that contacts between flights are given.
+const SHARPER: f64 = 0.1;
+
 /// Part of a run's first step that none is shorter than after a flight, however short that was.
 const SHORTEST: f64 = 1e-9;
 
@@ -34,6 +37,20 @@ pub(super) fn flights<L: Law>(problem: &Problem<L>, method: Adaptive) -> Option<
     let is_smooth = problem.laws.iter().any(|law| !law.is_piecewise_linear());
     let is_fit = check_steady("", &problem.system).is_ok() && scale::check(problem).is_ok();
     (exact_flights && is_smooth && is_fit).then(|| Flights::new(problem))
+}
+
+/// The method with a finer tolerance: what flights save is spent on contacts, in which all of the
+/// error is made then.
+pub(super) fn sharpened(method: Adaptive) -> Adaptive {
+    let sharper = |tolerances: Tolerances| Tolerances {
+        relative: (SHARPER * tolerances.relative).max(FINEST),
+        ..tolerances
+    };
+    match method {
+        Adaptive::RungeKutta(pair, tolerances) => Adaptive::RungeKutta(pair, sharper(tolerances)),
+        Adaptive::Exponential(tolerances) => Adaptive::Exponential(sharper(tolerances)),
+        other @ Adaptive::CentralDifference(_) => other,
+    }
 }
 
 /// Whether a state of a law is none of a contact that pushes, and linear.

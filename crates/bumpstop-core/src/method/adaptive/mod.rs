@@ -102,6 +102,11 @@ pub fn simulate<L: Law>(
     let (states, equations, numbers) = start(problem);
     let first = first_step(problem);
     let flights = flying::flights(problem, method);
+    let method = if flights.is_some() {
+        flying::sharpened(method)
+    } else {
+        method
+    };
     let (record, events) = match method {
         Adaptive::RungeKutta(pair, tolerances) => {
             let formula = RungeKutta::new(pair.pair(), tolerances, first, numbers, &equations);
