@@ -17,7 +17,13 @@ if TYPE_CHECKING:
     from bumpstop.problem import Problem
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["changing_shaft", "check_rotation", "turned_basis", "with_rotations"]
+__all__ = [
+    "acceleration_field",
+    "changing_shaft",
+    "check_rotation",
+    "turned_basis",
+    "with_rotations",
+]
 
 _PLANES = {
     "x": (("dz", "dry"), ("dy", "drz")),
@@ -102,11 +108,24 @@ def _accelerating(basis: ModalBasis, rotation: ShaftRotation) -> FloatArray:
         what = 'needs a structure where acceleration_terms are "lagrange"'
         hint = 'take "fixed_axis" or "none"'
         raise InputError(what, key="rotation", hint=hint)
-    rows, columns = _PLANES[_shaft_axis(basis.model)]
-    kinds = np.array([dof for _, dof in basis.model.dofs])
-    about_second = np.isin(kinds, rows)[:, np.newaxis] * basis.shapes
-    about_third = np.isin(kinds, columns)[:, np.newaxis] * basis.shapes
-    coupled: FloatArray = about_second.T @ (basis.model.gyroscopic @ about_third)
+    return basis.shapes.T @ acceleration_field(basis, rotation)
+
+
+def acceleration_field(basis: ModalBasis, rotation: ShaftRotation) -> FloatArray:
+    """Return what the angular acceleration multiplies beside the stiffness, (dofs, N), at 1 rad/s2.
+
+    The basis was made from a structure.
+    """
+    model, shapes = basis.model, basis.shapes
+    assert model is not None
+    if rotation.acceleration_terms == "none":
+        return np.zeros_like(shapes)
+    if rotation.acceleration_terms == "fixed_axis":
+        return (model.gyroscopic @ shapes) / rotation.spin
+    rows, columns = _PLANES[_shaft_axis(model)]
+    kinds = np.array([dof for _, dof in model.dofs])
+    about_third = np.isin(kinds, columns)[:, np.newaxis] * shapes
+    coupled: FloatArray = np.isin(kinds, rows)[:, np.newaxis] * (model.gyroscopic @ about_third)
     return coupled / rotation.spin
 
 

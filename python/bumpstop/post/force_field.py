@@ -49,7 +49,8 @@ def spread(
 
 def sums(functions: Sequence[Sequence[TimeFunction]], duration: float) -> Sizes:
     """Return the sums of some functions of time; of none, the constant one."""
-    terms = [resolved(each, duration) if each else None for each in functions]
+    # A function without terms, the whirl of a shaft whose speed changes, is read as it is.
+    terms = [(resolved(each, duration) or each) if each else None for each in functions]
 
     def sizes(times: FloatArray) -> FloatArray:
         ones = np.ones(len(times))

@@ -15,9 +15,9 @@ from bumpstop.errors import InputError
 from bumpstop.laws.coordinate import coordinates_of
 from bumpstop.loads.moving_force import MovingForce
 from bumpstop.loads.support_motion import SupportMotion
-from bumpstop.methods import changing_speed
 from bumpstop.post.force_field import ForceField, Sizes, spread, sums
 from bumpstop.post.moving import moving_fields
+from bumpstop.post.turning_fields import turning_fields
 
 if TYPE_CHECKING:
     from bumpstop.laws.coordinate import Coordinate
@@ -62,12 +62,6 @@ class Forces:
     @cached_property
     def local(self) -> tuple[ForceField, ...]:
         """The forces of loads, laws, dampers, gyroscopic and circulatory effects."""
-        problem = self.response.problem
-        turning = problem.rotation is not None and self.basis.gyroscopic is not None
-        if turning or changing_speed(problem) is not None:
-            what = "is not followed here: gyroscopic forces are taken at the speed of the basis"
-            hint = "make the beams and masses with their spin, and leave the rotation out"
-            raise InputError(what, key="rotation", hint=hint)
         return (*self._loads(), *self._laws(), *self._velocity_forces())
 
     def inertia(self, times: FloatArray) -> FloatArray:
@@ -188,13 +182,14 @@ class Forces:
 
     def _velocity_forces(self) -> Iterator[ForceField]:
         model, shapes = self.model, self.basis.shapes
-        moved = -(model.damping @ shapes) - (model.gyroscopic @ shapes)
-        if moved.any():
+        rotation = self.response.problem.rotation
+        damped = -(model.damping @ shapes)
+        if damped.any():
+            yield ForceField("damping", damped, partial(self.response.motion, 1))
+        gyroscopic = -(model.gyroscopic @ shapes)
+        if gyroscopic.any():
             # Dampers are at nodes, gyroscopic moments along beams.
-            speeds = partial(self.response.motion, 1)
-            turning = spread(partial(_gyration, shapes), speeds)
-            inside = turning if model.gyroscopic.values.any() else None
-            yield ForceField("damping", moved, speeds, inside)
+            yield from turning_fields(self.response, gyroscopic, rotation)
         turned = -(model.circulatory @ shapes)
         if turned.any():
             yield ForceField("damping", turned, lambda times: self.response.motion(0, times))
@@ -203,8 +198,3 @@ class Forces:
 def _inside(along: Sequence[Coordinate], cut: Cut) -> FloatArray:
     """Return what unit forces along some coordinates do inside an element, (r, m)."""
     return np.stack([each.inside(cut) for each in along], axis=1)
-
-
-def _gyration(shapes: FloatArray, cut: Cut) -> FloatArray:
-    """Return what gyroscopic moments do inside an element by the speeds of the modes, (r, N)."""
-    return -cut.of_gyration(shapes)
