@@ -62,3 +62,10 @@ def test_bearings_carry_the_unbalance_less_the_inertia() -> None:
     rest = (sums["inertia"] + sums["damping"]).values
     both = sum(found.reactions(node)["dy"].values for node in "AB")
     assert both == pytest.approx(-(load + rest), abs=1e-8 * abs(load).max())
+
+
+def test_a_table_of_one_speed_is_the_constant_speed() -> None:
+    table = bs.TimeTable(times=[0.0, 0.2], values=[60.0, 60.0 * (1.0 + 1e-12)])
+    runs = [run(bs.ShaftRotation(speed), stop=False) for speed in (60.0, table)]
+    steady, changing = (bs.recovery(each).reactions("A")["dy"].values for each in runs)
+    assert changing == pytest.approx(steady, abs=1e-5 * abs(steady).max())
