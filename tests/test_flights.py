@@ -42,7 +42,7 @@ def farthest(duration: float) -> tuple[float, float]:
 def thrown(law: Any, duration: float, **options: Any) -> bs.Response:
     initial = bs.ModalState(displacement=list(START), velocity=list(SPEED))
     problem = bs.Problem(free_mass(OMEGA), laws=[law], initial=initial, duration=duration)
-    return bs.simulate(problem, **options)
+    return bs.simulate(problem, **{"exact_flights": True, **options})
 
 
 def octagon(distance: float, stiffness: float) -> bs.PolarStop:
@@ -69,7 +69,7 @@ def test_a_long_flight_is_that_of_mpmath() -> None:
     initial = bs.ModalState(displacement=list(START), velocity=list(SPEED))
     duration = 240.0
     problem = bs.Problem(basis, laws=[hole], loads=[swing], initial=initial, duration=duration)
-    found = bs.simulate(problem)
+    found = bs.simulate(problem, exact_flights=True)
     assert found.method == "dop853"
     assert found.steps == 1
     mp.dps = 40
@@ -209,12 +209,12 @@ def test_flights_are_what_steps_make_of_them(name: str) -> None:
     assert flown.energy_residual < 1e-10
 
 
-def test_flights_are_left_out_on_request() -> None:
+def test_flights_are_taken_on_request() -> None:
     law = Hole(3e-3, stiffness=1e5).stop()
-    flown, stepped = thrown(law, 1.0), thrown(law, 1.0, exact_flights=False)
+    flown, stepped = thrown(law, 1.0), thrown(law, 1.0, exact_flights=None)
     assert (flown.steps, flown.event_count) == (1, 0)
     assert stepped.steps > 20
-    assert stepped.options["exact_flights"] is False
+    assert flown.options["exact_flights"] is True
 
 
 def test_what_is_no_choice_is_refused() -> None:
