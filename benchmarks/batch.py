@@ -140,8 +140,8 @@ def grown(model: bs.Problem, largest: int) -> tuple[dict[int, float], float]:
             found = solved(model, drawn, lanes=True)
             seconds = perf_counter() - start
             rates[count], left = max(rates[count], count / seconds), left - seconds
-        numbers = found.nbytes / 1e6  # with the samples, which are its coordinates
-        del found
+            numbers = found.nbytes / 1e6  # with the samples, which are its coordinates
+            del found  # two at a time would count as memory beside them
         beside = max(beside, most_memory() - before - numbers)
         print(f"{count:10}{rates[count]:12.0f}{numbers:16.1f}{beside:12.1f}")
     return rates, beside

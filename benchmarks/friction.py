@@ -9,14 +9,17 @@ in turns with the steps; what it takes to call them from Python is left out.
 import argparse
 import os
 import sys
+from pathlib import Path
 from statistics import median
 from time import process_time
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before NumPy is imported
+sys.path.insert(0, str(Path(__file__).parents[1]))  # for the march
 
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.explicit_march import ExplicitMarch
 from bumpstop import _core
 
 TURNS = 15
@@ -26,54 +29,6 @@ MOST = 1.5
 """Largest time of a step, by that of its two products."""
 
 Matrix = NDArray[np.float64]
-
-
-class Rubbing:
-    """Modes of 1 to 100 Hz among stops, which they hit and rub on."""
-
-    def __init__(self, modes: int, stops: int) -> None:
-        random = np.random.default_rng(0)
-        self.omega = 2.0 * np.pi * np.linspace(1.0, 100.0, modes)
-        self.rows = random.standard_normal((2 * stops, modes)) / np.sqrt(modes)
-        self.velocity = random.standard_normal(modes)
-        self.gaps = 1e-3 * random.random(stops)
-        self.dt = 0.1 / self.omega[-1]
-
-    def run(self, steps: int) -> tuple[float, _core.History]:
-        """Return the processor time of some steps, and what they gave."""
-        still = np.zeros_like(self.omega)
-        normals, tangents = np.split(self.rows, 2)
-        stops = [
-            _core.FrictionStop(_core.Stop(normal, gap, 1e3, 0.0), tangent, 0.3, 0.2, 1e3, 1.0)
-            for normal, tangent, gap in zip(normals, tangents, self.gaps, strict=True)
-        ]
-        system = _core.System(self.omega**2, 0.001 * self.omega)
-        before = process_time()
-        history = _core.simulate(
-            system,
-            stops,
-            _core.Forcing(still),
-            still,
-            self.velocity,
-            steps * self.dt,
-            "central_difference",
-            self.dt,
-        )
-        return process_time() - before, history
-
-    def step(self) -> float:
-        """Return the processor time of one step, what is made once left out."""
-        few, _ = self.run(STEPS // 4)
-        many, _ = self.run(STEPS)
-        return (many - few) / (STEPS - STEPS // 4)
-
-    def contacts(self) -> tuple[int, float]:
-        """Return how many contacts a run has, and for what part of it a stop is closed."""
-        _, history = self.run(STEPS)
-        impacts = [history.impacts(stop) for stop in range(len(self.gaps))]
-        closed = sum(float(np.nansum(each["end"] - each["start"])) for each in impacts)
-        number = sum(len(each["start"]) for each in impacts)
-        return number, closed / (STEPS * self.dt * len(self.gaps))
 
 
 def seconds_of_products(matrix: Matrix, vector: Matrix) -> float:
@@ -98,13 +53,21 @@ def main() -> int:
     parser.add_argument("--modes", type=int, default=100)
     parser.add_argument("--stops", type=int, default=20)
     given = parser.parse_args()
-    problem = Rubbing(given.modes, given.stops)
+    random = np.random.default_rng(0)
+    rows = random.standard_normal((2 * given.stops, given.modes)) / np.sqrt(given.modes)
+    velocity = random.standard_normal(given.modes)
+    gaps = 1e-3 * random.random(given.stops)
+    stops = [
+        _core.FrictionStop(_core.Stop(normal, gap, 1e3, 0.0), tangent, 0.3, 0.2, 1e3, 1.0)
+        for normal, tangent, gap in zip(*np.split(rows, 2), gaps, strict=True)
+    ]
+    march = ExplicitMarch(stops, velocity, damping=0.001, steps=STEPS)
     steps, products = [], []
     for _ in range(TURNS):
-        steps.append(problem.step())
-        products.append(seconds_of_products(problem.rows, problem.velocity))
+        steps.append(march.seconds_of_a_step())
+        products.append(seconds_of_products(rows, velocity))
     step, product = median(steps), median(products)
-    number, closed = problem.contacts()
+    number, closed = march.contacts()
     print(f"{given.modes} modes, {given.stops} stops with friction")
     print(f"{number} contacts in {STEPS} steps, a stop closed for {100 * closed:.0f} % of them")
     print(f"both products {1e6 * product:.2f} us, one step {1e6 * step:.2f} us")

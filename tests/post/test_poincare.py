@@ -1,6 +1,7 @@
 """Sections of motions that are known: a ball that keeps step with a table, an oscillator."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -96,6 +97,6 @@ def test_refuses() -> None:
         ({"gap": 3}, "must be a response"),
     ],
 )
-def test_bifurcation_refuses(runs: object, said: str) -> None:
+def test_bifurcation_refuses(runs: Any, said: str) -> None:
     with pytest.raises(bs.InputError, match=said):
-        bs.bifurcation(runs, lambda run: run, parameter="gap")  # type: ignore[arg-type]
+        bs.bifurcation(runs, lambda run: run, parameter="gap")

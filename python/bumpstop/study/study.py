@@ -8,9 +8,7 @@ from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
-
-import numpy as np
+from typing import TYPE_CHECKING, Any
 
 from bumpstop.arguments import count, did_you_mean, name
 from bumpstop.errors import InputError
@@ -19,8 +17,8 @@ from bumpstop.io.case.build import STRUCTURE
 from bumpstop.io.case.keys import keyed
 from bumpstop.io.case.load import checked_tables
 from bumpstop.io.case.overrides import overridden
-from bumpstop.io.units import WRONG_UNIT, asked_unit
 from bumpstop.study.basins import Basins
+from bumpstop.study.case_keys import CaseKeys
 from bumpstop.study.evaluation import Recipe
 from bumpstop.study.execution import Progress, execute, hired
 from bumpstop.study.indices import PARTS
@@ -125,7 +123,7 @@ class Study:
     def varied(self) -> dict[str, Parameter]:
         """The parameters as their keys take them: some take whole numbers alone."""
         return {
-            key: each.whole() if self._takes_whole(key, each) else each
+            key: each.whole() if self._keys.takes_whole(key, each) else each
             for key, each in self.parameters.items()
         }
 
@@ -137,9 +135,12 @@ class Study:
     @cached_property
     def units(self) -> dict[str, str]:
         """The SI units of those parameters that have one."""
-        errors = {key: self._objection(key, "1") for key in self.parameters}
-        units = {key: error and asked_unit(error) for key, error in errors.items()}
+        units = {key: self._keys.unit(key) for key in self.parameters}
         return {key: unit for key, unit in units.items() if unit}
+
+    @cached_property
+    def _keys(self) -> CaseKeys:
+        return CaseKeys(self.document)
 
     @property
     def follows(self) -> bool:
@@ -250,54 +251,11 @@ class Study:
         return open_zarr_store(Path(store), self.layout, self.definition, resume=resume)
 
     def _check_parameters(self) -> None:
-        """Raise where there is no such key, or a text is not of its kind.
-
-        Numbers are judged run by run.
-        """
         if not self.parameters:
             hint = "name what varies and its values"
             raise InputError("there are none", key="parameters", hint=hint)
         for key, parameter in self.parameters.items():
-            first, *others = parameter.written or (1.0,)
-            for written in (first, *(other for other in others if isinstance(other, str))):
-                self._check_value(key, written)
-            for written in parameter.spread:
-                # A difference may be below what values may be; its unit is theirs.
-                error = self._objection(key, written)
-                if error is not None and error.what.startswith(WRONG_UNIT):
-                    self._refuse(key, error)
-
-    def _check_value(self, key: str, written: object) -> None:
-        error = self._objection(key, written)
-        if error is None:
-            return
-        if error.what in _NO_KEY:
-            what, place = f"the case has no such key: {error.key}", f'parameters."{key}"'
-            raise InputError(what, key=place, hint=error.hint) from error
-        if isinstance(written, str):
-            self._refuse(key, error)
-
-    def _objection(self, key: str, value: object) -> InputError | None:
-        """Return what the checks of a case file say against a value of a key."""
-        try:
-            checked_tables(overridden(self.document, {key: value}))
-        except InputError as error:
-            return error
-        return None
-
-    def _refuse(self, key: str, error: InputError) -> NoReturn:
-        place = f'parameters."{key}"'
-        raise InputError(error.what, key=place, value=error.value, hint=error.hint) from error
-
-    def _takes_whole(self, key: str, parameter: Parameter) -> bool:
-        """Return whether a key takes a whole number, and none just beside it."""
-        if parameter.whole() is parameter:
-            return False
-        near = round(float(parameter.quantiles(np.array([0.5]))[0]))
-        beside = [near - _BESIDE, near + _BESIDE]
-        return self._objection(key, near) is None and all(
-            self._objection(key, value) is not None for value in beside
-        )
+            self._keys.check(key, parameter)
 
     def _sections(self) -> dict[str, Output]:
         """Return what tells attractors apart, where they are wanted."""
@@ -350,12 +308,6 @@ class Study:
                     output.of_modes(self.case.bases[str(self.variant)])
                 else:
                     output.check(problem)
-
-
-_BESIDE = 2.0**-10
-"""So far from a whole number are those that tell whether a key takes others, too."""
-_NO_KEY = ("unknown key", "leads nowhere", "cannot be changed by a variant")
-"""What is said of a name that is no key of the case."""
 
 
 def study(
