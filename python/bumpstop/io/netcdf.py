@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bumpstop.arguments import FloatArray
+    from bumpstop.modal.basis import ModalBasis
+    from bumpstop.modal.full import FullMatrices
     from bumpstop.post.results.reading import Result
     from bumpstop.problem import Problem
     from bumpstop.response import Response
@@ -49,6 +51,8 @@ OTHER_COLUMNS = 20
 """Columns of the ledger and of all else that is there once."""
 MOST_SHAPES = 2_000_000
 """Numbers in the shapes of the largest basis that is kept with its response."""
+MOST_ENTRIES = 10_000_000
+"""Entries in the matrices of the largest full model that is kept with its response."""
 NOTHING: Mapping[str, float] = {}
 TIME: Mapping[str, str | float] = {"units": "s", "long_name": "time"}
 
@@ -64,7 +68,8 @@ def write_netcdf(
 ) -> None:
     """Write a response, tabulated at its times, to a NetCDF-4 file.
 
-    Over ``time`` the file holds the modal motion, forces, gaps and states of the stops, with
+    Over ``time`` the file holds the modal motion (of a full model that of the independent dofs
+    that the run has kept), forces, gaps and states of the stops, with
     friction also its forces, strains of the gauges, displacements of all mesh nodes along the
     axes that are free (where the basis knows its structure), motions of the problem's outputs
     and of the nodes at the stops, and the energy ledger; beside them tables of impacts and of
@@ -114,7 +119,9 @@ def _grid(response: Response) -> Mapping[str, float]:
 def _block(response: Response) -> int:
     """Return how many instants are held in memory at a time."""
     basis = response.problem.basis
-    own = len(basis.omega2) + len(basis.dofs) + len(response.problem.laws)
+    whole = len(basis.omega2) + len(basis.dofs)
+    motion = whole if response.kept is None else len(MOTIONS) * len(response.kept)
+    own = motion + len(response.problem.laws)
     return max(MOST_NUMBERS // (OTHER_COLUMNS + own), 1)
 
 
@@ -142,7 +149,11 @@ def _over_time(
     # Read once, used by several: reading from the core takes longer than writing.
     motions = [response.motion(derivative) for derivative in range(len(MOTIONS))]
     yield Variable("time", ("time",), response.times, {**TIME, **grid})
-    if not response.problem.basis.unreduced:
+    if response.problem.basis.unreduced:
+        from bumpstop.io.independent_dofs import independent_dofs
+
+        yield from independent_dofs(response, motions)
+    else:
         yield from _modes(response, motions)
     yield from _stops(response, words)
     yield from _gauges(response)
@@ -309,10 +320,10 @@ def _nodes(response: Response, model: LinearModel, motion: FloatArray) -> Iterat
     if not dofs:
         return
     rows = {dof: row for row, dof in enumerate(model.dofs)}
-    # A node without the dof gets the row of zeros behind all others.
-    shapes = np.vstack([basis.shapes, np.zeros(basis.shapes.shape[1])])
+    # A node without the dof rests.
     places = np.array([[rows.get((node, dof), -1) for dof in dofs] for node in nodes])
-    table = (motion @ shapes[places.ravel()].T).reshape(-1, *places.shape)
+    table = np.zeros((len(motion), *places.shape))
+    table[:, places >= 0] = motion @ basis.shapes[places[places >= 0]].T
     if response.problem.supports_move:
         from bumpstop.carried import carried_field
 
@@ -389,7 +400,7 @@ def _results(response: Response, results: Sequence[Result]) -> Iterator[Variable
 
 def _problem(problem: Problem) -> Iterator[Variable]:
     """Give the whole problem, for those who make it again; huge ones are left out."""
-    if problem.basis.unreduced or problem.basis.shapes.size > MOST_SHAPES:
+    if _is_huge(problem.basis):
         return
     from bumpstop.io.statement import packed
 
@@ -400,6 +411,13 @@ def _problem(problem: Problem) -> Iterator[Variable]:
     told = {"long_name": "the problem: arrays of NumPy (npz) and a text in JSON, as bytes"}
     values = np.frombuffer(content, dtype=np.uint8)
     yield Variable("problem", ("problem_byte",), values, told)
+
+
+def _is_huge(basis: ModalBasis) -> bool:
+    if basis.unreduced:
+        matrices: FullMatrices = basis.matrices  # type: ignore[attr-defined]  # a FullModel has them
+        return sum(len(matrix.values) for matrix in matrices) > MOST_ENTRIES
+    return basis.shapes.size > MOST_SHAPES
 
 
 def _texts(texts: Iterable[object]) -> NDArray[Any]:

@@ -1,6 +1,7 @@
 """Statements: a problem as data, from which the same problem can be made again.
 
-A statement is a tree of plain values, with arrays beside it. Objects of ours, all of them
+A statement is a tree of plain values, with arrays beside it; a sparse array of SciPy stands there
+by the three arrays of its compressed rows. Objects of ours, all of them
 dataclasses or named tuples, stand in it by their class and their fields; no other class is ever
 looked up when it is read, so that a file can hold no program.
 """
@@ -11,17 +12,21 @@ import io
 import json
 from dataclasses import fields, is_dataclass
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bumpstop.errors import InputError
 
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
 __all__ = ["packed", "unpacked"]
 
 _TEXT = "statement"
 _PLAIN = (bool, int, float, str, type(None))
+_COMPRESSED_ROWS = ("data", "indices", "indptr")
 
 
 def packed(thing: object) -> bytes:
@@ -70,6 +75,9 @@ def _stated(value: Any, arrays: dict[str, NDArray[Any]]) -> Any:
     if isinstance(value, np.ndarray):
         arrays[f"array_{len(arrays)}"] = value
         return {"array": f"array_{len(arrays) - 1}"}
+    if getattr(value, "format", None) == "csr":
+        of = [_stated(getattr(value, part), arrays) for part in _COMPRESSED_ROWS]
+        return {"csr": of, "shape": [int(length) for length in value.shape]}
     if isinstance(value, dict):
         return {"dict": [[_stated(part, arrays) for part in item] for item in value.items()]}
     parts = _parts_of(value)
@@ -98,12 +106,23 @@ def _made(tree: Any, arrays: dict[str, NDArray[Any]]) -> Any:
         return tree
     if "array" in tree:
         return arrays[tree["array"]]
+    if "csr" in tree:
+        return _compressed_rows([_made(part, arrays) for part in tree["csr"]], tree["shape"])
     if "dict" in tree:
         return {_made(key, arrays): _made(item, arrays) for key, item in tree["dict"]}
     if "tuple" in tree:
         return tuple(_made(item, arrays) for item in tree["tuple"])
     parts = {name: _made(part, arrays) for name, part in tree["of"].items()}
     return _with_parts(_class(tree["class"]), parts)
+
+
+def _compressed_rows(parts: list[NDArray[Any]], shape: list[int]) -> csr_array:
+    from scipy.sparse import csr_array
+
+    rows = csr_array(tuple(parts), shape=tuple(shape))
+    # SciPy itself does not look at them: products would read beside the arrays.
+    rows.check_format(full_check=True)
+    return rows
 
 
 def _with_parts(kind: type, parts: dict[str, Any]) -> Any:

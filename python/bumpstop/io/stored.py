@@ -15,6 +15,7 @@ from bumpstop.errors import BumpstopError, InputError
 from bumpstop.files import file_path
 from bumpstop.instants import Grid
 from bumpstop.io.columns import Instants, numbers, texts
+from bumpstop.io.independent_dofs import kept_of_file
 from bumpstop.io.reading import in_file
 from bumpstop.io.statement import unpacked
 from bumpstop.io.stored_history import StoredHistory, attributes_of
@@ -129,6 +130,7 @@ def _response(file: h5py.File) -> tuple[Response, StoredHistory]:
         instants=instants,
         method_reason=str(told["method_reason"]),
         options=options,
+        kept=kept_of_file(file, problem.basis),
     )
     return response, history
 
@@ -162,6 +164,7 @@ def _problem(file: h5py.File) -> Problem:
         TypeError,
         AttributeError,
         ImportError,
+        IndexError,
         zipfile.BadZipFile,
     ) as error:
         what = f"holds a problem that cannot be made here (written by bumpstop {version})"

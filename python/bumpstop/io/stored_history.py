@@ -9,11 +9,11 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.io.columns import Column, Instants, numbers, texts
+from bumpstop.io.independent_dofs import motion_names
 from bumpstop.io.netcdf import internal_names
 from bumpstop.laws.coordinate import coordinates_of
 from bumpstop.problem import Problem
 from bumpstop.quantities import IMPACTS
-from bumpstop.sampling import MOTIONS
 from bumpstop.structure.sparse import IndexArray
 
 __all__ = ["StoredHistory", "attributes_of"]
@@ -43,8 +43,7 @@ class StoredHistory:
     def __init__(self, file: h5py.File, problem: Problem, instants: Instants) -> None:
         self._instants = instants
         self._laws = [law.name for law in problem.laws]
-        own = "modal" if problem.basis.coordinates is None else "canonical"
-        self._motions = [Column(file[f"{own}_{quantity}"]) for quantity in MOTIONS]
+        self._motions = [Column(file[name]) for name in motion_names(problem.basis)]
         over_time = (
             "law_force",
             "gap",
@@ -116,7 +115,7 @@ class StoredHistory:
         return float(self._told["relative_energy_residual"])
 
     def motion(self, times: FloatArray, derivative: int) -> FloatArray:
-        """Return the motion of the canonical modes, (time, mode)."""
+        """Return the motion of the canonical modes, or of the dofs kept, (time, mode)."""
         motion: FloatArray = self._motions[derivative].at(self._at(times))
         return motion
 

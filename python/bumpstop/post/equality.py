@@ -35,6 +35,8 @@ def equal_responses(one: Response, other: Response) -> bool:
         return False
     if not np.array_equal(one.times, other.times) or not _same_problem(one, other):
         return False
+    if not _same_kept(one, other):
+        return False
     columns = zip(_columns(one), _columns(other), strict=True)
     return all(_same(mine, yours) for mine, yours in columns)
 
@@ -43,6 +45,12 @@ def _same_problem(one: Response, other: Response) -> bool:
     from bumpstop.io.statement import packed
 
     return one.problem is other.problem or packed(one.problem) == packed(other.problem)
+
+
+def _same_kept(one: Response, other: Response) -> bool:
+    if one.kept is None or other.kept is None:
+        return one.kept is other.kept
+    return np.array_equal(one.kept, other.kept)
 
 
 def _columns(response: Response) -> Iterator[NDArray[np.generic]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -30,6 +31,8 @@ ACCURACY = 1e-13
 """How well numbers in double precision keep what was assembled from them."""
 
 
+# Its parts are fields, by which files keep it; what it is made of is checked by hand.
+@dataclass(init=False, eq=False, repr=False)
 class Matrices:
     """A linear structure given by its matrices, from any finite-element code.
 
