@@ -99,6 +99,8 @@ def main() -> int:
     given = parser.parse_args()
     count = given.runs - given.runs % LANES
     model, base, drawn = problem(), published()[0], samples(count)
+    # First, since the most memory that the others have had would hide what it takes.
+    growth, beside = grown(model, given.largest)
     march, march_eight = loop(), eight_lanes()
     solvers: dict[str, Callable[[tuple[Array, Array, Array]], Array]] = {
         "bumpstop, lanes": lambda drawn: ours(model, drawn, lanes=True),
@@ -117,21 +119,21 @@ def main() -> int:
             best[name] = max(best[name], count / (perf_counter() - start))
     exact = tips["bumpstop, lanes"]
     size = np.abs(exact).max(axis=1, keepdims=True)
-    print(f"{count} problems, {OUTPUTS} outputs each, {usable_cores()} cores, best of {ROUNDS}")
+    print(f"\n{count} problems, {OUTPUTS} outputs each, {usable_cores()} cores, best of {ROUNDS}")
     for name, rate in best.items():
         difference = float(np.max(np.abs(tips[name] - exact) / size))
         print(f"{name:24}{rate:12.0f} a second   from ours {difference:.1e}")
     apart = float(np.max(np.abs(tips["bumpstop, single runs"] - exact) / size))
     tips.clear()
-    growth, beside = grown(model, given.largest)
     return judge(best, [worst_error(exact, drawn), apart], growth, beside)
 
 
 def grown(model: bs.Problem, largest: int) -> tuple[dict[int, float], float]:
     """Return solutions a second by the number of runs, and the memory beside numbers in MB."""
     rates, beside = {}, 0.0
+    solved(model, samples(LANES), lanes=True)  # loads what results need
     before = most_memory()
-    print(f"\n{'runs':>10}{'a second':>12}{'MB in and out':>16}{'MB beside':>12}")
+    print(f"{'runs':>10}{'a second':>12}{'MB in and out':>16}{'MB beside':>12}")
     for count in (runs for runs in GROWTH if runs <= largest):
         drawn = samples(count)
         rates[count], left = 0.0, SECONDS
