@@ -115,6 +115,7 @@ if TYPE_CHECKING:
     from bumpstop.report.studies.bars import sobol_chart, tornado_chart
     from bumpstop.report.studies.grids import basin_map, heat_map
     from bumpstop.report.studies.points import bifurcation_diagram
+    from bumpstop.report.studies.searched import search_chart
     from bumpstop.response import Response
     from bumpstop.simulate import simulate
     from bumpstop.structure.beam import Beam
@@ -304,6 +305,7 @@ __all__ = [
     "recovery",
     "response_spectrum",
     "sampled_impacts",
+    "search_chart",
     "signal_statistics",
     "simulate",
     "sobol_chart",
@@ -475,6 +477,7 @@ _HOME = {
     "recovery": "post.recovery",
     "response_spectrum": "post.response_spectrum",
     "sampled_impacts": "post.sampled",
+    "search_chart": "report.studies.searched",
     "signal_statistics": "post.streams",
     "simulate": "simulate",
     "sobol_chart": "report.studies.bars",

@@ -71,6 +71,24 @@ def test_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out)["made"] == 0
 
 
+def test_the_worst_case(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sampling = '[sampling]\nmethod = "worst_case"\nof = "force"\ncount = 160\n'
+    path = written(tmp_path, STUDY.replace("[execution]\nchunk = 3", sampling))
+    assert main(["sweep", str(path)]) == 0
+    (told,) = [line for line in capsys.readouterr().out.splitlines() if "worst case" in line]
+    found = bs.open_study(tmp_path / "study.zarr")
+    worst = int(found.force.values.argmax())
+    # 3 m/s sqrt(k m) with m = 2 kg and k up to 800 N/m
+    assert found.force.values[worst] == pytest.approx(120.0, rel=1e-3)
+    assert told == f"worst case: force = {found.force.values[worst]:.9g} N in run {worst}"
+    assert "Search for the largest force" in (tmp_path / "study.html").read_text()
+    assert main(["sweep", str(path), "--open", str(worst), "--json"]) == 0
+    opened = tmp_path / f"study-run-{worst}" / "case.toml"
+    (problem,) = bs.load_case(opened).problems.values()
+    again = bs.Output(quantity="largest_force", stop="spring").value(bs.simulate(problem))
+    assert again == found.force.values[worst]
+
+
 def test_what_each_parameter_does(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     sampling = '[sampling]\nmethod = "one_at_a_time"\n[execution]'
     study = STUDY.replace("[execution]", sampling).replace(', spacing = "log"', "")

@@ -223,6 +223,22 @@ def test_sobol_and_tornado_charts() -> None:
         bs.sobol_chart(indices, "tip")
 
 
+def test_the_chart_of_a_search() -> None:
+    values = [np.nan, 3.0, 1.0, 3.0, 4.0, np.nan, 2.0]
+    found = xr.Dataset({"force": ("run", values), "failed": ("run", np.isnan(values))})
+    marks, steps = bs.search_chart(found, "force").data
+    np.testing.assert_array_equal(marks.y, values)
+    assert list(zip(steps.x, steps.y, strict=True)) == [(1, 3.0), (4, 4.0), (6, 4.0)]
+    assert list(steps.customdata) == [1, 4, 4]
+    nothing = found.assign(force=("run", np.full(7, np.nan)))
+    assert "No run has it" in str(bs.search_chart(nothing, "force").layout.title)
+    with pytest.raises(bs.InputError, match="no such output"):
+        bs.search_chart(found, "tip")
+    grid = xr.Dataset({"force": (("a", "b"), np.ones((2, 2)))})
+    with pytest.raises(bs.InputError, match="must be one number for each run"):
+        bs.search_chart(grid, "force")
+
+
 def test_shares_of_the_variance_on_a_grid() -> None:
     # 2 a + b + a b over symmetric levels: the variances of the three terms add up.
     a, b = np.linspace(-1.0, 1.0, 5), np.linspace(-1.0, 1.0, 9)

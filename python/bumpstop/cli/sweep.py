@@ -142,6 +142,18 @@ class _Found:
         basins = self._study.basins
         return () if basins is None else classified(basins, *map(self._read, SECTION)).attractors
 
+    @property
+    def worst(self) -> str | None:
+        """What a search has found in a line; None where there was none, or it found nothing."""
+        if not self._study.searches:
+            return None
+        sought = self._study.sought
+        extremes = self.extremes(sought)
+        if extremes is None:
+            return f"no run has {sought}"
+        unit = "" if self.units[sought] == "1" else f" {self.units[sought]}"
+        return f"worst case: {sought} = {extremes.largest:.9g}{unit} in run {extremes.largest_in}"
+
     def extremes(self, name: str) -> _Extremes | None:
         """Return the smallest and largest value of an output; None where it has none."""
         values = self._read(name).reshape(self._study.runs.count, -1)
@@ -166,6 +178,9 @@ def _print(title: str, summary: Summary, folder: Path, found: _Found) -> None:
         print_line()
         print_table(sensitivity_table(found.sensitivities))
     _print_attractors(found)
+    if found.worst is not None:
+        print_line()
+        print_line(found.worst)
     if summary.failed:
         print_line()
         print_line(f"{summary.failed} failed, such as", style="bold red")

@@ -11,7 +11,7 @@ import numpy as np
 from bumpstop.study.basins import SECTION, Basins, Classes, classified
 from bumpstop.study.evaluation import FAILED
 from bumpstop.study.indices import PARTS, indices_of_runs
-from bumpstop.study.layout import STATE, Array, unpacked_message
+from bumpstop.study.layout import STATE, Array, unpacked_message, worded
 from bumpstop.study.parameters import recorded_parameter
 from bumpstop.study.sampling import SIDES
 
@@ -65,7 +65,7 @@ def labelled(
             continue
         if name in names:
             if name not in coordinates:
-                coordinates[name] = shaped.beside(_worded(read(name), array.attributes))
+                coordinates[name] = shaped.beside(worded(read(name), array.attributes))
             continue
         attributes = dict(array.attributes)
         if "times" in attributes:
@@ -181,14 +181,6 @@ class _Ways(_Shape):
 def _as_coordinate(levels: Sequence[Any]) -> NDArray[Any]:
     has_words = any(isinstance(level, str) for level in levels)
     return np.array(levels, dtype=object if has_words else None)
-
-
-def _worded(numbers: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[Any]:
-    """Return the words that stand for numbers, where they do."""
-    words = attributes.get("words")
-    if words is None:
-        return numbers
-    return np.array([words[number] if number >= 0 else "" for number in numbers], dtype=object)
 
 
 def _messages(failed: NDArray[np.bool_], read: Reader) -> NDArray[Any]:

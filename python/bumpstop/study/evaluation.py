@@ -96,6 +96,16 @@ class Kept:
         values = {name: np.full((number, *each.shape), np.nan) for name, each in outputs.items()}
         return cls(values, np.full(number, FAILED, np.uint8), list(messages))
 
+    @classmethod
+    def joined(cls, parts: Sequence[Kept]) -> Kept:
+        """Return what is kept of several lots of runs, one after the other."""
+        names = parts[0].values
+        return cls(
+            {name: np.concatenate([part.values[name] for part in parts]) for name in names},
+            np.concatenate([part.status for part in parts]),
+            [message for part in parts for message in part.messages],
+        )
+
     def put(self, number: int, other: Kept) -> None:
         """Take over the only run of another, as the one of this number."""
         for name, values in other.values.items():

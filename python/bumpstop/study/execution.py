@@ -15,10 +15,12 @@ from bumpstop.errors import InputError
 from bumpstop.interrupts import interrupts_later
 from bumpstop.study.chain import chained
 from bumpstop.study.evaluation import FAILED, GOOD
-from bumpstop.study.pool import evaluated, usable_cores
+from bumpstop.study.pool import Done, evaluated, usable_cores
+from bumpstop.study.search import search
 
 if TYPE_CHECKING:
     from bumpstop.study.cluster import Cluster, Scheduler
+    from bumpstop.study.layout import Layout
     from bumpstop.study.store import Store
     from bumpstop.study.study import Study
 
@@ -84,37 +86,60 @@ def execute(
     """
     started = monotonic()
     layout = study.layout
-    there = int(np.count_nonzero(store.read("status")))
     chunks = np.flatnonzero(store.read("status")[:: layout.chunk] == 0).tolist()
-    made = failed = 0
     processes = usable_cores() if workers is None else count("workers", workers)
-    processes = max(1, min(processes, len(chunks)))
-    if study.follows:
-        if cluster is not None:
-            what = "is of no use where each run waits for the one before it"
-            raise InputError(what, key="scheduler", hint="leave it out")
-        crew, processes = chained(study, store.read, chunks), 1
-    elif cluster is None:
-        crew = evaluated(study.recipe, chunks, study.task, processes)
+    keeper = _Keeper(layout, store, progress)
+    if cluster is not None and (study.follows or study.searches):
+        what = "is of no use where runs wait for those before them"
+        raise InputError(what, key="scheduler", hint="leave it out")
+    if study.searches:
+        processes = min(processes, layout.chunk)
+        search(study, store.read, keeper.keep, processes)
     else:
-        crew = cluster.evaluated(study.recipe, study.files, chunks, study.task)
-    with closing(crew):
-        for task, kept in crew:
-            with interrupts_later():
-                store.write(task.chunk, layout.columns(task.columns), kept)
-            made += len(kept.status)
-            failed += int(np.count_nonzero(kept.status == FAILED))
-            if progress is not None:
-                progress(Progress(there + made, layout.count, made, failed))
+        processes = 1 if study.follows else max(1, min(processes, len(chunks)))
+        if study.follows:
+            crew = chained(study, store.read, chunks)
+        elif cluster is None:
+            crew = evaluated(study.recipe, chunks, study.task, processes)
+        else:
+            crew = cluster.evaluated(study.recipe, study.files, chunks, study.task)
+        with closing(crew):
+            for done in crew:
+                keeper.keep(done)
     status = store.read("status")
     assert np.all((status == GOOD) | (status == FAILED))
     return Summary(
         runs=layout.count,
-        made=made,
+        made=keeper.made,
         failed=int(np.count_nonzero(status == FAILED)),
         seconds=monotonic() - started,
         workers=processes if cluster is None else cluster.threads,
     )
+
+
+class _Keeper:
+    """Writes what comes, and tells how far the study is."""
+
+    def __init__(
+        self, layout: Layout, store: Store, progress: Callable[[Progress], None] | None
+    ) -> None:
+        self._layout = layout
+        self._store = store
+        self._progress = progress
+        self._there = int(np.count_nonzero(store.read("status")))
+        self.made = 0
+        self._failed = 0
+
+    def keep(self, done: Done) -> None:
+        """Write a chunk."""
+        task, kept = done
+        with interrupts_later():
+            self._store.write(task.chunk, self._layout.columns(task.columns), kept)
+        self.made += len(kept.status)
+        self._failed += int(np.count_nonzero(kept.status == FAILED))
+        if self._progress is not None:
+            there = self._there + self.made
+            self._progress(Progress(there, self._layout.count, self.made, self._failed))
 
 
 @contextmanager

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from bumpstop.study.sampling import Runs
 
-__all__ = ["STATE", "Array", "Layout", "packed_message", "unpacked_message"]
+__all__ = ["STATE", "Array", "Layout", "packed_message", "unpacked_message", "worded"]
 
 STATE = ("end_displacement", "end_velocity")
 """The state of the modes at the end of each run, where the next one starts in it."""
@@ -134,6 +134,14 @@ def packed_message(message: str) -> NDArray[np.uint8]:
 def unpacked_message(content: NDArray[np.uint8]) -> str:
     """Return the text of a packed message."""
     return content.tobytes().rstrip(b"\0").decode(errors="ignore")
+
+
+def worded(numbers: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[Any]:
+    """Return the words that stand for numbers, where they do."""
+    words = attributes.get("words")
+    if words is None:
+        return numbers
+    return np.array([words[number] if number >= 0 else "" for number in numbers], dtype=object)
 
 
 def _words(levels: Sequence[Level] | NDArray[Any]) -> list[Level]:

@@ -12,6 +12,7 @@ import sys
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import suppress
+from itertools import pairwise
 from queue import Empty, Queue, SimpleQueue
 from subprocess import PIPE, Popen
 from threading import Lock, Thread
@@ -21,7 +22,7 @@ from bumpstop.study.evaluation import Evaluator, Kept, Recipe
 from bumpstop.study.frames import receive, send
 from bumpstop.study.parameters import Level
 
-__all__ = ["DIED", "Done", "Task", "Worker", "evaluated", "usable_cores"]
+__all__ = ["DIED", "Crew", "Done", "Task", "Worker", "evaluated", "usable_cores"]
 
 DIED = "the process that made this run died: it was killed, or found no memory"
 
@@ -139,15 +140,84 @@ class _Feeder:
         task_of: Callable[[int], Task],
         done: Queue[Done | Exception],
     ) -> None:
-        self._recipe = recipe
         self._todo = todo
         self._task_of = task_of
         self._done = done
+        self._hand = _Hand(recipe)
+        self.end = self._hand.end
+        self.thread = Thread(target=self._work, daemon=True)
+        self.thread.start()
+
+    def _work(self) -> None:
+        """Work until nothing is left to do."""
+        try:
+            while True:
+                task = self._task_of(self._todo.get_nowait())
+                self._done.put(Done(task, self._hand.kept(task.columns)))
+        except (Empty, _EndedError):
+            self.end()
+        except Exception as error:  # for the main thread to raise
+            self.end()
+            self._done.put(error)
+
+
+class Crew:
+    """Threads or processes that make runs side by side, whenever some are wanted.
+
+    Parameters
+    ----------
+    recipe
+        How runs are made.
+    workers
+        How many processes, or threads of this one where the core makes the runs by itself;
+        with one, the runs are made in this process.
+    """
+
+    def __init__(self, recipe: Recipe, workers: int) -> None:
+        from concurrent.futures import ThreadPoolExecutor
+
+        self._recipe = recipe
+        self._workers = workers
+        self._evaluator = Evaluator(recipe)
+        self._hands: list[_Hand] = []
+        self._threads = ThreadPoolExecutor(workers)
+
+    def kept(self, columns: Mapping[str, Sequence[Level]]) -> Kept:
+        """Return what is kept of the runs with these values of the parameters."""
+        number = len(next(iter(columns.values())))
+        ends = [number * part // self._workers for part in range(self._workers + 1)]
+        parts = [
+            {name: column[start:end] for name, column in columns.items()}
+            for start, end in pairwise(ends)
+            if end > start
+        ]
+        if self._workers == 1 or self._evaluator.runs_in_core(columns):
+            return Kept.joined(list(self._threads.map(self._evaluator.kept, parts)))
+        while len(self._hands) < len(parts):
+            self._hands.append(_Hand(self._recipe))
+        made = self._threads.map(lambda hand, part: hand.kept(part), self._hands, parts)
+        return Kept.joined(list(made))
+
+    def close(self) -> None:
+        """End threads and processes, at once and for good."""
+        for hand in self._hands:
+            hand.end()
+        self._threads.shutdown(cancel_futures=True)
+
+
+class _Hand:
+    """A process that makes runs, and another one where it dies of them."""
+
+    def __init__(self, recipe: Recipe) -> None:
+        self._recipe = recipe
         self._ended = False
         self._worker: Worker | None = None
         self._lock = Lock()  # of the two above
-        self.thread = Thread(target=self._work, daemon=True)
-        self.thread.start()
+
+    def kept(self, columns: Mapping[str, Sequence[Level]]) -> Kept:
+        """Return what is kept of runs; those that a process dies of are made one by one."""
+        found = self._answer(columns)
+        return found if found is not None else self._one_by_one(columns)
 
     def end(self) -> None:
         """End the process, at once and for good."""
@@ -156,28 +226,12 @@ class _Feeder:
             if self._worker is not None:
                 self._worker.end()
 
-    def _work(self) -> None:
-        """Work until nothing is left to do."""
-        try:
-            while True:
-                task = self._task_of(self._todo.get_nowait())
-                self._done.put(Done(task, self._kept(task)))
-        except (Empty, _EndedError):
-            self.end()
-        except Exception as error:  # for the main thread to raise
-            self.end()
-            self._done.put(error)
-
-    def _kept(self, task: Task) -> Kept:
-        found = self._answer(task.columns)
-        return found if found is not None else self._one_by_one(task)
-
-    def _one_by_one(self, task: Task) -> Kept:
-        """Make the runs of a task that has killed a process, each by itself."""
-        number = len(next(iter(task.columns.values())))
+    def _one_by_one(self, columns: Mapping[str, Sequence[Level]]) -> Kept:
+        """Make runs that have killed a process, each by itself."""
+        number = len(next(iter(columns.values())))
         kept = Kept.failed(self._recipe.outputs, [DIED] * number)
         for run in range(number):
-            single = self._answer({name: [column[run]] for name, column in task.columns.items()})
+            single = self._answer({name: [column[run]] for name, column in columns.items()})
             if single is not None:
                 kept.put(run, single)
         return kept

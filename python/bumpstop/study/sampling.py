@@ -12,17 +12,19 @@ import numpy as np
 from bumpstop.arguments import FloatArray, count, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.io.case.keys import keyed
-from bumpstop.study.parameters import MOST_RUNS, Level, Parameter
+from bumpstop.study.parameters import MOST_RUNS, Level, Parameter, Values
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["DRAWN", "SAMPLINGS", "SIDES", "Runs", "Sampling", "planned", "unit_samples"]
+__all__ = ["CROWD", "DRAWN", "SAMPLINGS", "SIDES", "Runs", "Sampling", "planned", "unit_samples"]
 
 DRAWN = ("latin_hypercube", "sobol", "monte_carlo", "saltelli")
 BY_SHARES = (*DRAWN, "one_at_a_time")
 """Methods that ask parameters for quantiles."""
-SAMPLINGS = ("grid", "list", "continuation", *BY_SHARES)
+SAMPLINGS = ("grid", "list", "continuation", *BY_SHARES, "worst_case")
+CROWD = 8
+"""Runs of a generation for each parameter, where the worst case is searched for."""
 SIDES = ("low", "middle", "high")
 """Runs of each parameter that goes alone."""
 _TAIL = 0.05
@@ -53,6 +55,9 @@ class Sampling:
     share
         For ``"one_at_a_time"``: low is the value below which this share of the parameter lies,
         high the one above which as much lies; 0.05 where left out.
+    of
+        For ``"worst_case"``: the output, a single number, that is made largest; the only one
+        where left out.
 
     Raises
     ------
@@ -64,18 +69,22 @@ class Sampling:
     count: int | None = None
     seed: int = 0
     share: float | None = None
+    of: str | None = None
 
     def __post_init__(self) -> None:
         one_of("method", self.method, SAMPLINGS)
         count("seed", self.seed, least=0)
         self._check_share()
-        if self.method not in DRAWN:
+        if self.of is not None and self.method != "worst_case":
+            what = "is what a worst_case is searched for of, and this is none"
+            raise InputError(what, key="of", value=self.of)
+        if self.method not in (*DRAWN, "worst_case"):
             if self.count is not None:
                 what = f"{self.method} makes as many runs as the parameters tell"
                 raise InputError(what, key="count", value=self.count)
             return
         if self.count is None:
-            raise InputError("is missing", key="count", hint="say how many samples")
+            raise InputError("is missing", key="count", hint="say how many")
         _check_number("count", count("count", self.count))
         if self.method in _POWERS_OF_TWO and self.count & (self.count - 1):
             more = 2 ** math.ceil(math.log2(self.count))
@@ -87,6 +96,9 @@ class Sampling:
         """What it is, for a study to be known again by."""
         if self.method in DRAWN:
             return {"method": self.method, "count": self.count, "seed": self.seed}
+        if self.method == "worst_case":
+            told = {"method": self.method, "count": self.count, "seed": self.seed}
+            return told if self.of is None else told | {"of": self.of}
         if self.method == "one_at_a_time":
             return {"method": self.method, "share": self.tail}
         return {"method": self.method}
@@ -128,11 +140,21 @@ class Runs:
         self.levels = dict(levels)
         self.shape = shape
         self.count = math.prod(shape) if shape else len(next(iter(levels.values())))
+        self.known = self.count
+        """Runs whose values are known, which a search tells as it goes."""
 
     def row(self, number: int) -> dict[str, Level]:
         """Return the values in one run, counted from 0."""
         numbers = self._numbers(np.array([number]))
         return {name: _plain(self.levels[name][numbers[name][0]]) for name in self.names}
+
+    def tell(self, start: int, columns: Mapping[str, Sequence[Level] | NDArray[Any]]) -> None:
+        """Set the values of the parameters in some runs, which a search has told."""
+        for name, values in columns.items():
+            levels = self.levels[name]
+            assert isinstance(levels, np.ndarray)
+            levels[start : start + len(values)] = values
+            self.known = max(self.known, start + len(values))
 
     def columns(self, start: int, end: int) -> dict[str, list[Level]]:
         """Return the values of each parameter in the runs from start to before end."""
@@ -175,6 +197,8 @@ def planned(
         shares = unit_samples(sampling, len(parameters))
         drawn = zip(parameters.items(), shares.T, strict=True)
         return Runs({name: each.quantiles(column) for (name, each), column in drawn}, None)
+    if sampling.method == "worst_case":
+        return _searched(parameters, sampling.count or 0)
     levels = {name: _levels(name, each) for name, each in parameters.items()}
     if sampling.method == "list":
         _check_lengths(levels)
@@ -186,6 +210,23 @@ def planned(
     shape = tuple(len(values) for values in ordered.values())
     _check_number("parameters", math.prod(shape))
     return Runs(ordered, shape)
+
+
+def _searched(parameters: Mapping[str, Parameter], most: int) -> Runs:
+    """Return the runs of a search; others of each parameter stand for values not yet known."""
+    generation = CROWD * len(parameters)
+    if most < generation:
+        what = f"a generation has {generation} runs, {CROWD} for each parameter"
+        raise InputError(what, key="count", value=most, hint="ask for as many or more")
+    runs = most - most % generation
+    for name, each in parameters.items():
+        if isinstance(each, Values) and len(each.levels) > runs:
+            what = f"has {len(each.levels)} values, and the search {runs} runs"
+            raise InputError(what, key=f'parameters."{name}"', hint="take a range")
+    shares = (np.arange(runs) + 0.5) / runs
+    found = Runs({name: each.quantiles(shares) for name, each in parameters.items()}, None)
+    found.known = 0
+    return found
 
 
 def unit_samples(sampling: Sampling, dimensions: int) -> FloatArray:

@@ -14,7 +14,7 @@ from bumpstop.errors import InputError
 from bumpstop.files import written_whole
 from bumpstop.io.case.overrides import overridden
 from bumpstop.io.case.written import toml_text
-from bumpstop.study.layout import STATE
+from bumpstop.study.layout import STATE, worded
 from bumpstop.study.store import read_store
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def write_case(
         The file. One of that name is replaced.
     store
         Where runs follow one another: the study's store, which has the state that the run
-        starts from.
+        starts from. Where the worst case is searched for: it has the values of the parameters.
 
     Returns
     -------
@@ -74,14 +74,19 @@ def checked_start(
 ) -> dict[str, Any]:
     """Return what a run's case has of its start, where the run before it tells; else nothing.
 
+    A run of a search gets the values of its parameters from the store, where it has not been made
+    by this study.
+
     Raises
     ------
     InputError
-        If there is no such run, or the store does not have its start.
+        If there is no such run, or the store does not have its start or its values.
     """
     if count("run", run, least=0) >= study.runs.count:
         what = f"the study has runs 0 to {study.runs.count - 1}"
         raise InputError(what, key="run", value=run)
+    if run >= study.runs.known:
+        _read_values(study, run, store)
     if not study.follows or run % (study.layout.count // 2) == 0:
         return {}
     if store is None:
@@ -95,6 +100,22 @@ def checked_start(
         return {}
     displacement, velocity = (each.tolist() for each in state)
     return {"initial": {"modal": {"displacement": displacement, "velocity": velocity}}}
+
+
+def _read_values(study: Study, run: int, store: str | os.PathLike[str] | None) -> None:
+    """Take the values of the parameters in the runs of a search from its store."""
+    if store is None:
+        what = "has values that the search told, which the study's store knows"
+        raise InputError(what, key="run", value=run, hint="name the store")
+    _, arrays, read = read_store(Path(store))
+    made = read("status")
+    if run >= len(made) or not made[run]:
+        raise InputError("has not been made", key="run", value=run)
+    known = slice(0, int(np.count_nonzero(made)))
+    columns = {
+        name: worded(read(name, known), arrays[name].attributes) for name in study.parameters
+    }
+    study.runs.tell(0, columns)
 
 
 def _moved(part: Any, files: Container[str], old: Path, new: Path) -> Any:

@@ -26,7 +26,7 @@ from bumpstop.study.layout import STATE, Layout
 from bumpstop.study.outputs import Output
 from bumpstop.study.parameters import Parameter, as_parameter
 from bumpstop.study.pool import Task
-from bumpstop.study.sampling import Runs, Sampling, planned
+from bumpstop.study.sampling import CROWD, Runs, Sampling, planned
 from bumpstop.study.store import MemoryStore, Store, open_zarr_store, read_store
 
 if TYPE_CHECKING:
@@ -105,6 +105,8 @@ class Study:
         self._check_outputs()
         if self.follows:
             self._check_following()
+        if self.searches:
+            self._check_sought()
         _ = self.runs
 
     @cached_property
@@ -130,7 +132,8 @@ class Study:
     @cached_property
     def layout(self) -> Layout:
         """The arrays that its results fill."""
-        return Layout(self.runs, self.outputs, self.chunk, modes=self._modes, units=self.units)
+        chunk = CROWD * len(self.parameters) if self.searches else self.chunk
+        return Layout(self.runs, self.outputs, chunk, modes=self._modes, units=self.units)
 
     @cached_property
     def units(self) -> dict[str, str]:
@@ -146,6 +149,16 @@ class Study:
     def follows(self) -> bool:
         """Whether each run starts where the one before it ended."""
         return self.sampling.method == "continuation"
+
+    @property
+    def searches(self) -> bool:
+        """Whether runs are placed where those before them have been worst."""
+        return self.sampling.method == "worst_case"
+
+    @property
+    def sought(self) -> str:
+        """The output that a search makes largest."""
+        return self.sampling.of or next(iter(self.outputs))
 
     @property
     def _modes(self) -> int | None:
@@ -282,6 +295,21 @@ class Study:
             if table == "initial":
                 raise InputError("is that of the run before", key=f'parameters."{key}"')
 
+    def _check_sought(self) -> None:
+        """Raise where a search has nothing, or too much, to make largest."""
+        if self.chunk is not None:
+            raise InputError("is a generation in a search", key="chunk", hint="leave it out")
+        if self.sampling.of is None and len(self.outputs) > 1:
+            hint = "name the output that the search makes largest"
+            raise InputError("is missing", key="sampling.of", hint=hint)
+        output = self.outputs.get(self.sought)
+        if output is None:
+            hint = did_you_mean(self.sought, self.outputs)
+            raise InputError("no such output", key="sampling.of", value=self.sought, hint=hint)
+        if output.shape:
+            what = "must be a single number, for the worst case to be known"
+            raise InputError(what, key=f"outputs.{self.sought}", hint="give a statistic")
+
     def _told_beside(self) -> Iterator[str]:
         """Yield names that the results get from the way of sampling."""
         if self.follows:
@@ -318,6 +346,7 @@ def study(
     sampling: str = "grid",
     count: int | None = None,
     seed: int = 0,
+    of: str | None = None,
     variant: str | None = None,
     basins: Basins | None = None,
     store: str | PathLike[str] | None = None,
@@ -336,7 +365,7 @@ def study(
         a `Distribution`.
     outputs
         What to keep of each run, by a name of your own.
-    sampling, count, seed
+    sampling, count, seed, of
         See `Sampling`.
     variant
         Which variant of the case; needed where it has several.
@@ -372,7 +401,7 @@ def study(
         loaded,
         parameters,
         outputs,
-        sampling=Sampling(sampling, count, seed),
+        sampling=Sampling(sampling, count, seed, of=of),
         variant=variant,
         basins=basins,
     )

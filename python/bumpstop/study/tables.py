@@ -105,21 +105,27 @@ class SamplingTable(Table):
         description="Each value with each of the others (grid), the n-th values together "
         "(list), so, too, but up and then down, each run from the state in which the one before "
         "it ended (continuation), samples that are drawn, for Sobol's indices among them "
-        "(saltelli), or each parameter low and high while the others are in their middle "
-        "(one_at_a_time)",
+        "(saltelli), each parameter low and high while the others are in their middle "
+        "(one_at_a_time), or a search for the values that make an output largest (worst_case)",
     )
     count: Count | None = Field(
         default=None,
         description="How many samples are drawn; a power of two for sobol and saltelli, which "
-        "makes count times (2 + parameters) runs",
+        "makes count times (2 + parameters) runs; for worst_case the most runs",
     )
     seed: CountFromZero = Field(
-        default=0, description="Another seed draws other samples, the same one the same"
+        default=0,
+        description="Another seed draws other samples or searches on other ways, the same one the "
+        "same",
     )
     share: PositiveNumber | None = Field(
         default=None,
         description="For one_at_a_time: low is the value below which this share of a parameter "
         "lies, high the one above which as much lies; 0.05 where left out",
+    )
+    of: Name | None = Field(
+        default=None,
+        description="For worst_case: the output that is made largest; the only one where left out",
     )
 
 

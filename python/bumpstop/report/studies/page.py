@@ -19,6 +19,7 @@ from bumpstop.report.studies.points import (
     scatter_figure,
     two_ways_figure,
 )
+from bumpstop.report.studies.searched import search_figure
 from bumpstop.report.variant import caption, untitled
 from bumpstop.report.words import shown
 from bumpstop.study.basins import SECTION
@@ -98,6 +99,8 @@ def _figures(study: Study, results: xr.Dataset, outputs: Sequence[str]) -> Itera
             yield from _over_times(results, name)
         elif study.sampling.method == "one_at_a_time":
             yield tornado_figure(results, name)
+        elif study.searches:
+            yield from _of_search(study, results, name)
         else:
             yield from _of_numbers(results, name)
 
@@ -124,6 +127,13 @@ def _of_numbers(results: xr.Dataset, name: str) -> Iterator[Figure]:
         yield shares_figure(results, name)
 
 
+def _of_search(study: Study, results: xr.Dataset, name: str) -> Iterator[Figure]:
+    if name == study.sought:
+        yield search_figure(results, name)
+    for parameter in parameters_of(results)[:MOST_PARAMETERS]:
+        yield scatter_figure(results, name, parameter)
+
+
 def _is_map(results: xr.Dataset) -> bool:
     return len(results.failed.dims) > 1
 
@@ -136,7 +146,8 @@ def _verdict(runs: int, failed: int) -> dict[str, str]:
 
 def _facts(study: Study, failed: int) -> list[dict[str, str]]:
     sampling = study.sampling.method.replace("_", " ")
-    seed = f"seed {study.sampling.seed}" if study.sampling.method in DRAWN else ""
+    seeded = study.searches or study.sampling.method in DRAWN
+    seed = f"seed {study.sampling.seed}" if seeded else ""
     return [
         {"name": "Runs", "value": f"{study.runs.count:,}", "note": ""},
         {"name": "Failed", "value": f"{failed:,}", "note": ""},
@@ -163,6 +174,8 @@ def _parameters(study: Study) -> list[dict[str, str]]:
 def _weighting(method: str) -> str:
     if method in DRAWN:
         return "samples are drawn as the parameters scatter, so that these are tolerance statistics"
+    if method == "worst_case":
+        return "a search crowds where the sought output is large, so that only extremes tell much"
     return "each run counts alike, however likely its values are"
 
 
