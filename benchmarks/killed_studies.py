@@ -1,7 +1,7 @@
 """Kill studies a hundred times at random instants, and compare their stores with unbroken ones.
 
-A third of the kills meet a study whose runs the core makes, a third one whose runs processes make,
-and a third one whose runs follow one another.
+A quarter of the kills meet a study whose runs the core makes, a quarter one whose runs processes
+make, a quarter one whose runs follow one another, and a quarter a search for a worst case.
 ``python benchmarks/killed_studies.py [KILLS]``; the exit status is 1 where a byte differs.
 """
 
@@ -46,6 +46,10 @@ FOLLOWED = (
     .replace("[outputs.tip]", '[sampling]\nmethod = "continuation"\n[outputs.tip]')
 )
 """The same numbers side by side, up and then down: each run starts where the last one ended."""
+SEARCHED = (STUDY + MEAN).replace(
+    "[execution]\nchunk = 5", '[sampling]\nmethod = "worst_case"\nof = "mean"\ncount = 1600'
+)
+"""A search: generations wait for those before them, and processes make their runs."""
 CASE = Path(__file__).parents[1] / "cases" / "sdnl32" / "case.toml"
 
 
@@ -97,8 +101,9 @@ def main() -> int:
     """Kill, resume, compare; return the exit status."""
     wanted = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     chance = random.Random(1)
-    third = wanted // 3
-    kinds = {STUDY: third, STUDY + MEAN: third, FOLLOWED: wanted - 2 * third}
+    quarter = wanted // 4
+    kinds = dict.fromkeys([STUDY, STUDY + MEAN, FOLLOWED], quarter)
+    kinds[SEARCHED] = wanted - 3 * quarter
     survived = [survives(text, kills, chance) for text, kills in kinds.items()]
     return 0 if all(survived) else 1
 

@@ -275,3 +275,19 @@ def test_a_file_with_flipped_bytes_is_read_or_refused(good: Path, tmp_path: Path
         (tmp_path / "damaged.nc").write_bytes(damaged)
         with contextlib.suppress(bs.BumpstopError):
             bs.read_netcdf(tmp_path / "damaged.nc")
+
+
+def test_large_models_play_in_vtk_as_small_ones_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run_of("newmark", "absolute").export(tmp_path / "dense.vtkhdf")
+    monkeypatch.setattr(full_model, "MOST_DENSE", 0)
+    run_of("newmark", "absolute").export(tmp_path / "sparse.vtkhdf")
+    with (
+        h5py.File(tmp_path / "dense.vtkhdf") as dense,
+        h5py.File(tmp_path / "sparse.vtkhdf") as own,
+    ):
+        for name in ("displacement", "velocity", "contact_force"):
+            expected, found = (file["VTKHDF/PointData"][name][:] for file in (dense, own))
+            assert np.abs(expected).max() > 0.0
+            np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12 * abs(expected).max())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -120,9 +122,36 @@ def test_lumped_masses_hang_on_their_nodes() -> None:
     assert np.allclose(middle, 0.5 * (first + last), rtol=0.0, atol=1e-10)
 
 
+@pytest.mark.parametrize("mass", ["consistent", "lumped"])
+def test_supports_that_all_move_alike_are_a_base(mass: str) -> None:
+    """Its masses are the run's own, so that either load tells the same of it, to rounding."""
+    model = bs.FullModel.from_structure(cantilever(), mass=mass)
+    structure = replace(cantilever(), springs=[])  # the dashpot's ground would move, too
+    model = bs.FullModel.from_structure(structure, mass=mass)
+    method, dt = ("newmark", 1e-5) if mass == "consistent" else ("central_difference", 5e-7)
+    size = (0.0, 5e-5, 1e-4)
+    loads: list[Load] = [
+        bs.BaseMotion(displacement=size, time=WAVE, frame="absolute"),
+        bs.SupportMotion("lifted", nodes="A", displacement=size, time=WAVE),
+    ]
+    runs = [
+        bs.simulate(bs.Problem(model, loads=[load], duration=DURATION), method, dt=dt)
+        for load in loads
+    ]
+    base, supports = (bs.recovery(run.at(np.arange(201) * 1e-4)) for run in runs)
+    for dof in ("dy", "dz"):
+        expected = base.displacement("B", dof).values
+        found = supports.displacement("B", dof).values
+        assert np.abs(found - expected).max() < 1e-9 * np.abs(expected).max()
+    sums = supports.resultants()
+    assert np.abs(sums.residual).max() < 1e-9 * np.abs(sums.reaction).max()
+
+
 def test_runs_that_kept_a_few_dofs_say_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(full, "KEPT", 0)
     model = bs.FullModel.from_structure(cantilever())
     run = bs.simulate(bs.Problem(model, laws=[STOP], duration=1e-3), "newmark", dt=1e-5)
     with pytest.raises(bs.InputError, match="motion of all dofs"):
         bs.recovery(run)
+    with pytest.raises(bs.InputError, match="motion of all dofs"):
+        bs.periodicity(run, 1e-4)

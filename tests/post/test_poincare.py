@@ -19,6 +19,33 @@ def driven(frequency: float = 3.0, damping: float = 0.2, duration: float = 60.0)
     return bs.simulate(bs.Problem(basis, loads=[load], duration=duration))
 
 
+def test_full_models_repeat_themselves_as_their_loads_do() -> None:
+    beam = bs.Beam(
+        "AB",
+        nodes=("A", "B"),
+        elements=3,
+        section=bs.Rectangle(height=0.02, width=0.01),
+        material=bs.Material(young_modulus=210e9, poisson_ratio=0.3, density=7800.0),
+    )
+    clamped = bs.Support(nodes="A", fixed=("dx", "dy", "dz", "drx", "dry", "drz"))
+    structure = bs.Structure(
+        nodes={"A": (0, 0, 0), "B": (0.5, 0, 0)}, beams=[beam], supports=[clamped]
+    )
+    damping = bs.RayleighDamping(alpha=100.0)
+    model = bs.FullModel.from_structure(structure, damping=damping)
+    loads = [
+        bs.NodalForce(f"{rate} Hz", node="B", force=(0, 5.0, 5.0), time=bs.Harmonic(rate, sine=1.0))
+        for rate in (50.0, 100.0)
+    ]
+    for given, multiple in ((loads[1:], 1), (loads, 2)):
+        run = bs.simulate(bs.Problem(model, loads=given, duration=0.6), "newmark", dt=1e-4)
+        found = bs.periodicity(run, 0.01, start=0.5, tolerance=1e-5)
+        assert found.multiple == multiple
+    early = bs.periodicity(run, 0.01, most=2)
+    assert early.multiple is None
+    assert 0.01 < early.distance < 2.0
+
+
 def test_a_linear_motion_is_one_point() -> None:
     """The steady state of 8 sin(w t) on an oscillator, at a quarter of the period."""
     run = driven()

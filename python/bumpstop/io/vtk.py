@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import h5py
 import numpy as np
+from scipy.sparse import coo_array
 
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
@@ -138,9 +139,15 @@ def _write_fields(group: h5py.Group, response: Response, nodes: list[str]) -> No
 def _shapes(basis: ModalBasis, nodes: list[str]) -> FloatArray:
     """Return how far each node moves along each axis with each mode, (3 nodes, modes)."""
     rows = {dof: row for row, dof in enumerate(basis.dofs)}
-    # A node without the dof gets the row of zeros behind all others.
-    shapes = np.vstack([basis.shapes, np.zeros(basis.shapes.shape[1])])
-    return shapes[[rows.get((node, dof), -1) for node in nodes for dof in TRANSLATIONS]]
+    axes = [rows.get((node, dof)) for node in nodes for dof in TRANSLATIONS]
+    there = [place for place, row in enumerate(axes) if row is not None]
+    # As a matrix, since those of large full models are sparse.
+    chosen = coo_array(
+        (np.ones(len(there)), (there, [row for row in axes if row is not None])),
+        shape=(len(axes), len(rows)),
+    ).tocsr()
+    shapes: FloatArray = chosen @ basis.shapes
+    return shapes
 
 
 def _carried(

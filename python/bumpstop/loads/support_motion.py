@@ -116,7 +116,7 @@ class SupportMotion(MovingSupports):
             raise InputError("the basis has no supports", key="nodes", value=self.nodes, hint=hint)
         field = self.field(model)
         rates = [
-            (model.mass @ field, self.accelerations),
+            (basis.whole_mass @ field, self.accelerations),
             (model.damping @ field + model.gyroscopic @ field, (Rate(self, 1),)),
             (model.circulatory @ field, (Rate(self, 0),)),
         ]

@@ -31,6 +31,7 @@ from bumpstop.structure.structure import Structure
 if TYPE_CHECKING:
     from bumpstop.modal.companions import SpatialLoad
     from bumpstop.modal.coordinates import UserCoordinates
+    from bumpstop.structure.sparse import SparseMatrix
 
 __all__ = ["COMBINATION", "ModalBasis", "mode_labels"]
 
@@ -364,6 +365,12 @@ class ModalBasis:
             return self.labels
         alone = self.coordinates.alone()
         return tuple(COMBINATION if of is None else self.labels[of] for of in alone)
+
+    @property
+    def whole_mass(self) -> SparseMatrix:
+        """The masses of all dofs of its structure, those that supports hold too."""
+        assert self.model is not None  # by the caller
+        return self.model.mass
 
     @property
     def has_masses(self) -> bool:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from bumpstop.response import Response
     from bumpstop.structure.cut import Cut
     from bumpstop.structure.model import LinearModel
+    from bumpstop.structure.sparse import SparseMatrix
 
 __all__ = ["Forces"]
 
@@ -58,6 +59,11 @@ class Forces:
         model = self.basis.model
         assert model is not None  # it has masses
         return model
+
+    @property
+    def mass(self) -> SparseMatrix:
+        """The masses of all dofs."""
+        return self.basis.whole_mass
 
     @cached_property
     def local(self) -> tuple[ForceField, ...]:
@@ -117,7 +123,7 @@ class Forces:
     @cached_property
     def _mass_shapes(self) -> FloatArray:
         """The forces on all dofs that push one coordinate each, by one, (dofs, N)."""
-        return self.model.mass @ self.basis.shapes
+        return self.mass @ self.basis.shapes
 
     def _loads(self) -> Iterator[ForceField]:
         for load in self.response.problem.loads:
@@ -148,7 +154,7 @@ class Forces:
         rates = [
             -(model.circulatory @ field),
             -(model.damping @ field + model.gyroscopic @ field),
-            -(model.mass @ field),
+            -(self.mass @ field),
         ]
         travel = load.travel(self.response.problem.duration)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from bumpstop.errors import InputError
 from bumpstop.loads.inertia import InertialLoad
+from bumpstop.loads.support_motion import SupportMotion
 from bumpstop.modal.full import FullModel, numbers_of
 from bumpstop.post.force_field import ForceField, sums
 from bumpstop.post.forces import Forces
@@ -50,11 +51,6 @@ class FullForces(Forces):
         assert isinstance(basis, FullModel)  # by its caller
         return basis
 
-    @cached_property
-    def mass(self) -> SparseMatrix:
-        """The masses of all dofs, lumped where the run has them so."""
-        return self.full.whole_mass
-
     def inertia(self, times: FloatArray) -> FloatArray:
         """Return the inertia forces -M u'' at some times, (dofs, time)."""
         return -(self.mass @ self._moved(2, times))
@@ -77,12 +73,14 @@ class FullForces(Forces):
 
     def _load(self, load: Load) -> Iterator[ForceField]:
         """Yield the forces of a load; what pulls at lumped masses pulls at the nodes alone."""
-        if not (self.full.lumped and isinstance(load, InertialLoad)):
+        if self.full.lumped and isinstance(load, InertialLoad):
+            weight = self.mass @ load.pull(self.model)
+            sizes = sums([load.functions], self.response.problem.duration)
+            yield ForceField("load", weight[:, np.newaxis], sizes)
+        elif self.full.lumped and isinstance(load, SupportMotion):
+            yield self._support_forces(load)._replace(inside=None)
+        else:
             yield from super()._load(load)
-            return
-        weight = self.mass @ load.pull(self.model)
-        sizes = sums([load.functions], self.response.problem.duration)
-        yield ForceField("load", weight[:, np.newaxis], sizes)
 
     def _spread_inside(self, cut: Cut, times: FloatArray) -> FloatArray:
         """Return what inertia does inside an element, (r, time); none where lumped."""

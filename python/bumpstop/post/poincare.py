@@ -10,6 +10,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, count, finite, not_negative, one_of, positive
 from bumpstop.errors import InputError
+from bumpstop.modal.full import FullModel
 from bumpstop.post.impacts import impacts_of
 from bumpstop.post.of_run import check_run, of_run
 from bumpstop.quantities import dof_units
@@ -220,7 +221,8 @@ def periodicity(
 
     States, all modal displacements times their frequencies and all modal velocities, are
     compared once a period from ``start`` to the end of the run, at least over twice as many
-    periods as the motion is said to repeat after.
+    periods as the motion is said to repeat after. Of a full model, which has no modes, they are
+    compared by the energy of their difference.
 
     Parameters
     ----------
@@ -238,17 +240,18 @@ def periodicity(
     Raises
     ------
     InputError
-        If fewer than two periods lie after the start, or a number cannot be used.
+        If fewer than two periods lie after the start, a number cannot be used, or the run of a
+        full model has not kept the motion of all dofs.
     """
     times = _strobes(response, period, 0.0, start)
     if len(times) < 3:
         what = "must leave two periods before the end of the run"
         raise InputError(what, key="start", value=start)
-    states = _states(response, times)
-    size = float(np.abs(states).max())
+    states, largest = _states(response, times), _largest(response)
+    size = largest(states)
     least = np.inf
     for multiple in range(1, min(count("most", most), (len(times) - 1) // 2) + 1):
-        distance = float(np.abs(states[multiple:] - states[:-multiple]).max())
+        distance = largest(states[multiple:] - states[:-multiple])
         distance = distance / size if size else 0.0
         least = min(least, distance)
         if distance <= not_negative("tolerance", tolerance):
@@ -257,11 +260,35 @@ def periodicity(
 
 
 def _states(response: Response, times: FloatArray) -> FloatArray:
-    """Return states in units of velocity, (time, 2 N); a rigid mode counts with 1 rad/s."""
-    response.problem.basis.require_modes("response")
-    omega = np.sqrt(np.abs(response.problem.basis.omega2))
+    """Return states, (time, 2 N): of modes in units of velocity, a rigid one at 1 rad/s."""
+    basis = response.problem.basis
+    if response.kept is not None:
+        what = "needs the motion of all dofs, of which the run has kept a few"
+        hint = "run a shorter time, or with longer steps"
+        raise InputError(what, key="response", hint=hint)
+    omega = np.ones(len(basis.omega2)) if basis.unreduced else np.sqrt(np.abs(basis.omega2))
     scale = np.where(omega > 0.0, omega, 1.0)
     return np.hstack([response.motion(0, times) * scale, response.motion(1, times)])
+
+
+def _largest(response: Response) -> Callable[[FloatArray], float]:
+    """Return what tells the largest of some states, or of their differences.
+
+    Of modes it is the largest number; of a full model the root of twice the energy, where rigid
+    motions count as if held at 1 rad/s.
+    """
+    basis = response.problem.basis
+    if not isinstance(basis, FullModel):
+        return lambda states: float(np.abs(states).max())
+    mass, _, stiffness = basis.matrices
+
+    def largest(states: FloatArray) -> float:
+        displacement, velocity = (each.T for each in np.split(states, 2, axis=1))
+        energies = displacement * (stiffness @ displacement + mass @ displacement)
+        energies += velocity * (mass @ velocity)
+        return float(np.sqrt(energies.sum(axis=0).max()))
+
+    return largest
 
 
 def _strobes(response: Response, period: float, phase: float, start: float) -> FloatArray:
