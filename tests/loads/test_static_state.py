@@ -173,3 +173,52 @@ def test_nodes_with_displacements_and_velocities() -> None:
 def test_mistakes_of_nodal_states_are_one_line(options: dict[str, Any], what: str) -> None:
     with pytest.raises(bs.InputError, match=what):
         bs.NodalState(**options).modal_state(cantilever())
+
+
+@pytest.mark.parametrize("held", [True, False])
+@pytest.mark.parametrize("mass", ["consistent", "lumped"])
+def test_full_models_rest_where_all_modes_do(mass: str, held: bool) -> None:
+    """Pressed against two stops; hinged and carried by a spring where it is not held."""
+    fixed = ("dx", "dz", "drx", "dry", *(("dy", "drz") if held else ()))
+    beam = bs.Beam("AB", nodes=("A", "B"), elements=6, material=STEEL, section=BAR)
+    model = bs.Structure(
+        nodes={"A": (0, 0, 0), "B": (LENGTH, 0, 0)},
+        beams=[beam],
+        supports=[
+            bs.Support(nodes="all", fixed=("dx", "dz", "drx", "dry")),
+            bs.Support(nodes="A", fixed=fixed),
+        ],
+    )
+    middle = bs.Stop("middle", node="AB.3", normal=(0, 1, 0), gap=3e-4, stiffness=3e5)
+    foot = bs.SpringLaw("foot", node="A", direction=(0, 1, 0), stiffness=(2e5, 2e5), breaks=(0.0,))
+    laws: list[Any] = [STOP, middle, *([] if held else [foot])]
+    weight = bs.Gravity("weight", acceleration=(0, -9.81, 0))
+    loads = [PUSH, *([weight] if mass == "consistent" else [])]
+    full = bs.FullModel.from_structure(model, mass=mass)
+    state = bs.StaticState(loads=loads, laws=laws)
+    basis = bs.ModalBasis.from_structure(model, modes="all")
+    expected = basis.shapes @ state.modal_state(basis)[0]
+    found = full.shapes @ state.modal_state(full)[0]
+    assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
+    # With all its loads, lumped weight too, it stays where it is.
+    state = bs.StaticState(loads=[PUSH, weight], laws=laws)
+    problem = bs.Problem(full, laws=laws, loads=[PUSH, weight], initial=state, duration=2e-3)
+    method, dt = ("newmark", 1e-5) if mass == "consistent" else ("central_difference", 5e-7)
+    motion = bs.simulate(problem, method, dt=dt).motion()
+    assert np.abs(motion - motion[0]).max() < 1e-11 * np.abs(motion).max()
+
+
+def test_a_full_model_that_nothing_holds_or_pushes() -> None:
+    point = bs.Structure(
+        nodes={"P": (0, 0, 0)},
+        masses=[bs.PointMass("m", node="P", mass=4.0)],
+        supports=[bs.Support(nodes="P", fixed=("dy", "dz", "drx", "dry", "drz"))],
+    )
+    full = bs.FullModel.from_structure(point)
+    assert not bs.StaticState().modal_state(full)[0].any()
+    push = bs.NodalForce("push", node="P", force=(1.0, 0, 0))
+    with pytest.raises(bs.InputError, match="finds no equilibrium"):
+        bs.StaticState(loads=[push]).modal_state(full)
+    wall = bs.Stop("wall", node="P", normal=(-1, 0, 0), gap=1e-3, stiffness=500.0)
+    place = bs.StaticState(loads=[push], laws=[wall]).modal_state(full)[0]
+    assert place == pytest.approx([1e-3 + 1.0 / 500.0], rel=1e-12)

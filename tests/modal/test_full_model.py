@@ -264,8 +264,5 @@ def test_a_case_file_may_ask_for_a_full_model(tmp_path: Path) -> None:
 def test_what_needs_modes_says_so() -> None:
     structure = beam(3)
     model = bs.FullModel.from_structure(structure)
-    stop = bs.Stop("stop", node="B", normal=(0, 1, 0), stiffness=45e3)
-    with pytest.raises(bs.InputError, match="needs modes"):
-        swung(model, initial=bs.StaticState(laws=[stop]))
     with pytest.raises(bs.InputError, match="needs modes"):
         bs.draw_modes(model)

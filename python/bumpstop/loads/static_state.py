@@ -131,15 +131,34 @@ class StaticState:
     def modal_state(self, basis: ModalBasis) -> tuple[FloatArray, FloatArray]:
         """Return modal displacement, and velocity, which is zero, each (N,).
 
+        Those of a full model are of its independent dofs.
+
         Raises
         ------
         InputError
             If nothing holds the structure, or it has no equilibrium that it would stay in.
         """
-        basis.require_modes("static")
-        holds = [_held(basis, law) for law in self.laws]
-        balance = _Balance(basis, self._force(basis), holds)
-        return balance.found(), np.zeros(len(basis.omega2))
+        if basis.unreduced:
+            return self._on_all_dofs(basis)
+        return self._place(basis, self._force(basis)), np.zeros(len(basis.omega2))
+
+    def _on_all_dofs(self, full: ModalBasis) -> tuple[FloatArray, FloatArray]:
+        """Return displacement and velocity of the independent dofs, each (N,)."""
+        from bumpstop.loads.full_equilibrium import static_basis
+
+        along = [each for law in self.laws for each in _rows(full, law)]
+        force, still = self._force(full), np.zeros(len(full.omega2))
+        acting = [each for each in (force, *along) if each.any()]
+        if not acting:
+            return still, still
+        basis = static_basis(full, np.stack(acting, axis=1))
+        # Not the forces of the loads on that basis: its masses may be others.
+        place = self._place(basis, force @ full.project_field(basis.shapes))
+        return full.project_field(basis.shapes @ place), still
+
+    def _place(self, basis: ModalBasis, force: FloatArray) -> FloatArray:
+        """Return the displacement of the modes under forces on them, (N,)."""
+        return _Balance(basis, force, [_held(basis, law) for law in self.laws]).found()
 
     def remarks(self, _: ModalBasis) -> tuple[str, ...]:
         """Return nothing: the basis has all of an equilibrium of its own."""
@@ -157,6 +176,14 @@ class StaticState:
         return total
 
 
+def _rows(basis: ModalBasis, law: object) -> FloatArray:
+    """Return the coordinates of a law per unit of each modal displacement, (n, N)."""
+    if isinstance(law, _StaticLaw):
+        return law.row(basis)[np.newaxis]
+    assert isinstance(law, _StaticShape)  # checked when it was made
+    return law.rows(basis)[:2]
+
+
 class _Held(NamedTuple):
     """What a law does at rest."""
 
@@ -170,9 +197,9 @@ class _Held(NamedTuple):
 
 def _held(basis: ModalBasis, law: object) -> _Held:
     """Return what a law does at rest on a basis."""
+    rows = _rows(basis, law)
     if isinstance(law, _StaticLaw):
         told = law.static_force
-        rows = law.row(basis)[np.newaxis]
         # Formulas may grow without limit: these tell a scale of their own.
         scale = getattr(law, "static_stiffness", None)
         far = max(abs(told(x)[1]) for x in (-1e9, 1e9)) if scale is None else scale
@@ -183,7 +210,7 @@ def _held(basis: ModalBasis, law: object) -> _Held:
 
         return _Held(rows, along, far * float((rows**2).max(initial=0.0)))
     assert isinstance(law, _StaticShape)  # checked when it was made
-    shape, rows, origin = law, law.rows(basis)[:2], law.origin(basis)
+    shape, origin = law, law.origin(basis)
     stiffest = shape.stiffness * float((rows**2).max(initial=0.0))
     return _Held(rows, lambda place: shape.static_push(origin + place), stiffest)
 
