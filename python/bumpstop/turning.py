@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.model import LinearModel
 
 __all__ = [
+    "accelerated",
     "acceleration_field",
     "changing_shaft",
     "check_rotation",
@@ -122,11 +123,27 @@ def acceleration_field(basis: ModalBasis, rotation: ShaftRotation) -> FloatArray
         return np.zeros_like(shapes)
     if rotation.acceleration_terms == "fixed_axis":
         return (model.gyroscopic @ shapes) / rotation.spin
-    rows, columns = _PLANES[_shaft_axis(model)]
-    kinds = np.array([dof for _, dof in model.dofs])
-    about_third = np.isin(kinds, columns)[:, np.newaxis] * shapes
-    coupled: FloatArray = np.isin(kinds, rows)[:, np.newaxis] * (model.gyroscopic @ about_third)
-    return coupled / rotation.spin
+    rows, _ = _PLANES[_shaft_axis(model)]
+    coupled: FloatArray = model.gyroscopic @ accelerated(basis, rotation)
+    return _of_dofs(model, rows) * coupled / rotation.spin
+
+
+def accelerated(basis: ModalBasis, rotation: ShaftRotation) -> FloatArray:
+    """Return what of the shapes the angular acceleration acts on, (dofs, N).
+
+    The basis was made from a structure.
+    """
+    model, shapes = basis.model, basis.shapes
+    assert model is not None
+    if rotation.acceleration_terms != "lagrange":
+        return shapes if rotation.acceleration_terms == "fixed_axis" else np.zeros_like(shapes)
+    _, columns = _PLANES[_shaft_axis(model)]
+    return _of_dofs(model, columns) * shapes
+
+
+def _of_dofs(model: LinearModel, kinds: tuple[str, ...]) -> FloatArray:
+    """Return one for each dof of some kinds and zero for the others, (dofs, 1)."""
+    return np.isin([dof for _, dof in model.dofs], kinds).astype(np.float64)[:, np.newaxis]
 
 
 def _shaft_axis(model: LinearModel) -> str:

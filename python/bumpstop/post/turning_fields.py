@@ -10,7 +10,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.post.force_field import ForceField, spread
-from bumpstop.turning import acceleration_field
+from bumpstop.turning import accelerated, acceleration_field
 
 if TYPE_CHECKING:
     from bumpstop.loads.shaft_rotation import ShaftRotation
@@ -43,9 +43,13 @@ def turning_fields(
     def by_acceleration(times: FloatArray) -> FloatArray:
         return response.motion(0, times) * turning.acceleration_at(times)[:, np.newaxis]
 
-    field = acceleration_field(response.problem.basis, turning)
+    basis = response.problem.basis
+    field = acceleration_field(basis, turning)
     if field.any():
-        yield ForceField("damping", -field, by_acceleration)
+        # Of one plane's motion the gyroscopic moments are about the axis of the other alone.
+        moved = accelerated(basis, turning) / turning.spin
+        inside = spread(partial(_gyration, moved), by_acceleration)
+        yield ForceField("damping", -field, by_acceleration, inside)
 
 
 def _gyration(shapes: FloatArray, cut: Cut) -> FloatArray:

@@ -117,7 +117,7 @@ class BeamElement:
         """Return the gyroscopic forces a metre by velocities, in global axes, (6, 6)."""
         moment = self.spin * inertia(self._slice(place))[3]
         own = np.zeros((6, 6))
-        own[4, 5], own[5, 4] = -moment, moment
+        own[4, 5], own[5, 4] = moment, -moment
         in_global: FloatArray = self.turn.T @ own @ self.turn
         return in_global
 
