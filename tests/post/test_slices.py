@@ -88,7 +88,7 @@ def carried(run: bs.Response, moved: str, dof: str) -> FloatArray:
         size = -load.displacement[direction] * omega**2
     else:
         size = load.acceleration[direction]
-    return (size * np.sin(omega * run.times))[:, np.newaxis]
+    return np.outer(size * np.sin(omega * run.times), 1.0)
 
 
 def wind_at(place: float) -> FloatArray:
