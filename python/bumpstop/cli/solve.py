@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import NamedTuple, TypeAlias
 
@@ -74,16 +74,18 @@ class Stepping(NamedTuple):
             raise InputError("unknown method", key="--method", value=self.method, hint=hint)
         if self.rtol is not None:
             if self.method not in TOLERANCE_METHODS:
-                hint = f"give --method, too: {' or '.join(TOLERANCE_METHODS)}"
-                raise InputError(
-                    "only methods that follow a tolerance take it", key="--rtol", hint=hint
-                )
+                what = "only methods that follow a tolerance take it"
+                raise InputError(what, key="--rtol", hint=self._those(TOLERANCE_METHODS))
             positive("--rtol", self.rtol)
         if self.dt is not None:
             if self.method not in FIXED_STEP_METHODS:
-                hint = f"give --method, too: {' or '.join(FIXED_STEP_METHODS)}"
-                raise InputError("only methods with fixed steps take it", key="--dt", hint=hint)
+                what = "only methods with fixed steps take it"
+                raise InputError(what, key="--dt", hint=self._those(FIXED_STEP_METHODS))
             positive("--dt", self.dt)
+
+    def _those(self, methods: Iterable[str]) -> str:
+        lead = "give --method, too" if self.method is None else "take another --method"
+        return f"{lead}: {' or '.join(methods)}"
 
 
 def solve_case(case: Case, stepping: Stepping, progress: Progress) -> CaseResult:
