@@ -114,12 +114,14 @@ impl FrictionStop {
         })
     }
 
+    #[inline(always)]
     fn stick(anchor: f64) -> State {
         State::with_memory(Self::STICK, [anchor, 0.0])
     }
 
     /// Sliding with the sign `sign`, the slider being where it is when that begins or, in schemes
     /// of fixed steps, at the latest step.
+    #[inline(always)]
     fn slip(sign: f64, slider: f64) -> State {
         State::with_memory(Self::SLIP[usize::from(sign < 0.0)], [slider, 0.0])
     }
@@ -247,22 +249,22 @@ impl FrictionStop {
         self.slider(sign, force, motion.position()[SLIDING])
     }
 
-    /// The sampled state in contact, after a state that sticks or slides.
-    fn sampled_contact(&self, previous: State, x: f64, v: f64, force: f64) -> State {
+    /// The sampled state in contact, after one that slid with a sign, or stuck where that is zero;
+    /// where the slider stood then.
+    #[inline(always)]
+    fn sampled_contact(&self, sliding: f64, before: f64, x: f64, v: f64, force: f64) -> State {
         let Friction {
             stiffness, damping, ..
         } = self.friction;
-        let anchor = match Self::sliding(previous) {
-            Some(sign) => {
-                let slider = self.slider(sign, force, x);
-                if sign * (slider - previous.memory[0]) > 0.0 {
-                    return Self::slip(sign, slider);
-                }
-                // The damper takes its share from here on, without a jump.
-                previous.memory[0] + damping * v / stiffness
+        let mut anchor = before;
+        if sliding != 0.0 {
+            let slider = self.slider(sliding, force, x);
+            if sliding * (slider - before) > 0.0 {
+                return Self::slip(sliding, slider);
             }
-            None => previous.memory[0],
-        };
+            // The damper takes its share from here on, without a jump.
+            anchor += damping * v / stiffness;
+        }
         let trial = -stiffness * (x - anchor) - damping * v;
         if trial.abs() <= self.friction.static_coefficient * force {
             return Self::stick(anchor);
@@ -333,17 +335,18 @@ impl Law for FrictionStop {
         };
         let (x, v) = (position[SLIDING], velocity[SLIDING]);
         let [force, ..] = self.normal.force(closed, position, velocity);
-        let previous = match previous.number {
+        let sliding = Self::sliding(previous).unwrap_or(0.0);
+        let before = match previous.number {
             0 => {
                 // The anchor is where the gap has closed, since the sample before.
                 let (distance, rate) = self.normal.distance(position, velocity);
                 let since = if rate < 0.0 { distance / rate } else { 0.0 };
-                Self::stick(x - v * since)
+                x - v * since
             }
-            1 => Self::stick(x),
-            _ => previous,
+            1 => x,
+            _ => previous.memory[0],
         };
-        self.sampled_contact(previous, x, v, force)
+        self.sampled_contact(sliding, before, x, v, force)
     }
 
     #[inline(always)]

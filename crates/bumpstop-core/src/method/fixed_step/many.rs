@@ -11,6 +11,8 @@ use crate::number::{Block, Instructions, LANES, Lanes, Number, blocks, padded};
 
 /// From so many laws on a step goes through their rows once; fewer are kept up with one by one.
 pub(super) const MANY: usize = 4;
+/// So many times eight modes move before laws read them: their part of the rows stays at hand.
+const GROUP: usize = 4;
 
 /// A scheme that is told the modal forces of a step.
 pub(crate) trait Scheme<I: Instructions> {
@@ -41,8 +43,7 @@ pub(crate) trait Follow {
 }
 
 /// Carries a scheme through a problem. Laws read the modes of each step as soon as these have
-/// moved, eight at a time, while the part of their rows that moved them is at hand: a step
-/// touches each number of the rows once.
+/// moved, a few times eight at a time, while the part of their rows that moved them is at hand.
 #[inline(always)]
 pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
     mut scheme: S,
@@ -136,27 +137,52 @@ impl<I: Instructions> Rows<I> {
     /// Moves the modes one step on under forces and loads, and reads them.
     #[inline(always)]
     fn step<S: Scheme<I>>(&mut self, scheme: &mut S, load: &[Block]) {
-        let zero = Lanes::of(0.0);
-        self.sums.fill(zero);
-        let columns = self.columns.chunks_exact(self.forces.len());
-        for (block, (column, load)) in columns.zip(load).enumerate() {
-            let mut pushes = [zero; 4]; // sums do not wait for each other
-            let eights = column.as_chunks::<LANES>().0;
-            for (rows, forces) in eights.iter().zip(self.forces.as_chunks::<LANES>().0) {
-                for k in 0..LANES {
-                    let row = Lanes::of_block(&rows[k]);
-                    pushes[k % 4] = row.mul_add(Lanes::of(forces[k]), pushes[k % 4]);
-                }
+        self.sums.fill(Lanes::of(0.0));
+        let count = self.forces.len();
+        let groups = self.columns.chunks(GROUP * count);
+        for (group, (columns, loads)) in groups.zip(load.chunks(GROUP)).enumerate() {
+            let mut moved = [Lanes::of(0.0); GROUP];
+            let blocks = columns.chunks_exact(count).zip(loads).zip(&mut moved);
+            for (k, ((column, load), moved)) in blocks.enumerate() {
+                let push = Lanes::of_block(load) + pushed(column, &self.forces);
+                *moved = scheme.step(GROUP * group + k, push);
             }
-            let push = (pushes[0] + pushes[1]) + (pushes[2] + pushes[3]);
-            let moved = scheme.step(block, Lanes::of_block(load) + push);
-            for (row, sum) in column.iter().zip(&mut self.sums) {
-                *sum = Lanes::of_block(row).mul_add(moved, *sum);
-            }
+            read(columns, &moved, &mut self.sums);
         }
         let eights = self.sums.as_chunks::<LANES>().0.iter();
         for (sums, read) in eights.zip(self.read.as_chunks_mut::<LANES>().0) {
             *read = Lanes::totals(*sums);
         }
+    }
+}
+
+/// The forces of all rows on eight modes.
+#[inline(always)]
+fn pushed<I: Instructions>(column: &[Block], forces: &[f64]) -> Lanes<I> {
+    let mut pushes = [Lanes::of(0.0); 4]; // sums do not wait for each other
+    let eights = column.as_chunks::<LANES>().0;
+    for (rows, forces) in eights.iter().zip(forces.as_chunks::<LANES>().0) {
+        for k in 0..LANES {
+            let row = Lanes::of_block(&rows[k]);
+            pushes[k % 4] = row.mul_add(Lanes::of(forces[k]), pushes[k % 4]);
+        }
+    }
+    (pushes[0] + pushes[1]) + (pushes[2] + pushes[3])
+}
+
+/// Adds to the sums of all rows what they read of the modes of a group: eight rows at a time,
+/// whose sums stay in registers.
+#[inline(always)]
+fn read<I: Instructions>(columns: &[Block], moved: &[Lanes<I>], sums: &mut [Lanes<I>]) {
+    let count = sums.len();
+    for (eight, sums) in sums.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+        let mut own = *sums;
+        for (column, moved) in columns.chunks_exact(count).zip(moved) {
+            let rows = &column.as_chunks::<LANES>().0[eight];
+            for (row, sum) in rows.iter().zip(&mut own) {
+                *sum = Lanes::of_block(row).mul_add(*moved, *sum);
+            }
+        }
+        *sums = own;
     }
 }
