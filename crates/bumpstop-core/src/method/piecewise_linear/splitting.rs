@@ -98,6 +98,11 @@ impl Split {
 
 /// The constant part of the motion `x' = A x + p` beside slow exponents, which the forces drive:
 /// with these moved away from zero, `A - kappa X Y`, the matrix has an inverse.
+///
+/// The rounding of `kappa X Y` is as large as the fastest exponent makes it. Where the part is
+/// far away, since a slow exponent has a neighbour that is not, the motion would jump by it at
+/// each start of a phase. So the lack of the equations themselves, `A x + p` without the slow
+/// exponents' part of p, is solved for once more.
 pub(crate) fn rest_beside(matrix: &Mat<f64>, force: &Mat<f64>, split: &Split) -> Mat<f64> {
     let n = matrix.nrows();
     let mut projection = Mat::<f64>::zeros(n, n);
@@ -110,8 +115,18 @@ pub(crate) fn rest_beside(matrix: &Mat<f64>, force: &Mat<f64>, split: &Split) ->
     }
     let other = force - &projection * force;
     let moved = matrix - Scale(matrix.norm_max()) * projection;
-    moved.full_piv_lu().solve(-other)
+    let inverse = moved.full_piv_lu();
+    let mut rest = inverse.solve(-&other);
+    for _ in 0..REFINEMENTS {
+        let lack = matrix * &rest + &other;
+        rest -= inverse.solve(&lack);
+    }
+    rest
 }
+
+/// Refinements of a rest: the first leaves rounding of the equations, the second what that of the
+/// first has left.
+const REFINEMENTS: usize = 2;
 
 /// Splits a real matrix; exponents below `slow` belong together.
 pub(crate) fn split(matrix: &Mat<f64>, slow: f64) -> Result<Split> {
