@@ -31,6 +31,28 @@ def test_dampers_take_nothing_out_of_motions_that_they_do_not_see(seed: int) -> 
     check(random_several(seed))
 
 
+@pytest.mark.parametrize("seed", [26491, 51961, 81613])
+def test_mirrored_stops_are_hit_beside_stops_that_hold_a_mode_at_rest(seed: int) -> None:
+    check(random_several(seed))
+
+
+@pytest.mark.parametrize("seed", [36814, 89429])
+def test_a_mode_comes_to_rest_between_stops_without_clearance(seed: int) -> None:
+    # What is left of it is rounding, by which no stop switches for ever, also beyond the instant up
+    # to which the judge goes.
+    problem = random_several(seed)
+    check(problem)
+    assert problem.solve().energy_residual() < 1e-9
+
+
+def test_one_of_two_close_real_exponents_is_slow() -> None:
+    # A rigid mode with drag on a soft stop, held by stiff ones: under the force its place at rest
+    # would be a thousand times further away than it ever moves.
+    verdict = compare(random_several(47264))
+    assert verdict.difference is None
+    assert verdict.excess < 0.1
+
+
 @pytest.mark.parametrize("seed", [17965, 65853, 68227, 71272, 83050])
 def test_more_slow_exponents_than_sixteen(seed: int) -> None:
     # Runs of about 1e-4 periods on a stiff stop, under constant forces.

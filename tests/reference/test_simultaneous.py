@@ -66,6 +66,38 @@ def test_stops_at_mirrored_points_push_together(damping: float) -> None:
     assert good(agreement(mirrored, oracle))
 
 
+@pytest.mark.parametrize("stiffness", [3e3, 3e4, 3e6])
+@pytest.mark.parametrize("idle", [0.0, 3.0, 30.0])
+@pytest.mark.parametrize("damping", [0.0, 3.0])
+@pytest.mark.parametrize("side", [0.3, 0.7])
+def test_stops_without_clearance_at_a_mode_at_rest_let_mirrored_ones_switch(
+    side: float, damping: float, idle: float, stiffness: float
+) -> None:
+    # While one of the mirrored stops has switched and the other not yet, the odd mode has a third
+    # derivative, to which the two that face each other there would switch for ever.
+    wall = Wall(1, 0.1, 800.0, 2 * damping)
+    mass = Mass((wall,), 4.0, velocity=-2.0, omega2=25.0, damping=0.3)
+    facing = [Stop(np.array([0.0, s]), 0.0, stiffness, idle) for s in (1.3, -1.3)]
+    mirrored = [Stop(np.array([1.0, s]), 0.1, 400.0, damping) for s in (side, -side)]
+    together = SeveralStops(
+        omega2=np.array([25.0, 121.0]),
+        damping=np.array([0.3, 0.1]),
+        stops=(*facing, *mirrored),
+        duration=4.0,
+        displacement=np.zeros(2),
+        velocity=np.array([-2.0, 0.0]),
+    )
+    oracle = Rows(OneMass(mass), np.array([1.0, 0.0]), [-1, -1, 0, 0])
+    result = agreement(together, oracle)
+    assert max(result.state_error, result.energy_residual) < EXACT
+    # What the two at rest do is rounding.
+    expected = [event.time for event in oracle.events if event.stop == 2]
+    assert len(expected) > 5
+    for stop in (2, 3):
+        found = [event.time for event in result.found if event.stop == stop]
+        assert found == pytest.approx(expected, abs=EXACT)
+
+
 @pytest.mark.parametrize("damping", [0.0, 3.0])
 @pytest.mark.parametrize("force", [0.0, -5.0])
 def test_one_stop_is_taken_over_by_the_one_across(damping: float, force: float) -> None:

@@ -19,6 +19,9 @@ const SMALLEST_CELL: f64 = 1e-13;
 /// The first cells are so wide that a typical frequency of the guard turns by this angle.
 const FIRST_TURN: f64 = 1.0;
 
+/// The rank, among guards that are negative at once, from which on rounding may have made them so.
+const DOUBTFUL: usize = 4;
+
 /// A guard that is watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Start {
@@ -137,8 +140,8 @@ enum Outcome {
 enum Sight {
     /// It stays positive.
     Clear,
-    /// It is negative as soon as the path begins.
-    AtOnce,
+    /// It is negative as soon as the path begins; of several such, the lowest rank goes first.
+    AtOnce(usize),
     /// It has a zero there.
     Crosses(Bracket),
     /// It has one there if it is negative at the right end.
@@ -311,6 +314,12 @@ impl Walk {
     }
 
     /// The first zero on a cell that is not clear.
+    ///
+    /// Of guards that are negative at once the one goes first that is so by its lowest derivative,
+    /// and last what rounding may decide. Stops that are hit at one instant switch one after the
+    /// other, and while only some of them have, the others' forces are lacking in the higher
+    /// derivatives: by these a stop at rest between them would open and close for ever, and never
+    /// let the next one have its turn.
     #[inline(always)]
     fn judge_cell<I: Instructions>(
         &mut self,
@@ -320,6 +329,8 @@ impl Walk {
     ) -> Outcome {
         let smallest = SMALLEST_CELL * (cell.left + cell.width).max(self.period);
         let mut first: Option<Crossing> = None;
+        let mut at_once: Option<(usize, usize)> = None;
+        let mut is_unclear = false;
         for watched in 0..path.starts.len() {
             let departs = path.departs(watched, cell.left);
             let sight = if self.seen[watched].clear >> number & 1 == 1 {
@@ -331,19 +342,25 @@ impl Walk {
             };
             let (bracket, crosses) = match sight {
                 Sight::Clear => continue,
-                Sight::AtOnce => {
-                    return Outcome::Found(Crossing {
-                        watched,
-                        time: cell.left,
-                    });
+                Sight::AtOnce(rank) => {
+                    if at_once.is_none_or(|(least, _)| rank < least) {
+                        at_once = Some((rank, watched));
+                    }
+                    continue;
                 }
                 Sight::Crosses(bracket) => (bracket, true),
                 Sight::EndDecides(bracket) => (bracket, false),
-                Sight::Unclear if cell.width >= smallest => return Outcome::Halve(number),
+                Sight::Unclear if cell.width >= smallest => {
+                    is_unclear = true;
+                    continue;
+                }
                 // A departure that cannot be told from rounding is taken as one.
                 Sight::Unclear if departs => continue,
                 Sight::Unclear => (cell.bracket(0.0), false),
             };
+            if is_unclear || at_once.is_some() {
+                continue;
+            }
             let probe = &mut self.probe(path, watched);
             if !crosses && probe.values::<I>(bracket.right)[0] > 0.0 {
                 continue;
@@ -353,7 +370,14 @@ impl Walk {
                 first = Some(Crossing { watched, time });
             }
         }
-        first.map_or(Outcome::Clear, Outcome::Found)
+        match at_once {
+            Some((_, watched)) => Outcome::Found(Crossing {
+                watched,
+                time: cell.left,
+            }),
+            None if is_unclear => Outcome::Halve(number),
+            None => first.map_or(Outcome::Clear, Outcome::Found),
+        }
     }
 
     /// What one guard does on a cell on which it is not clear.
@@ -397,7 +421,7 @@ impl Walk {
     fn depart(&mut self, path: &Path<'_>, watched: usize, cell: Cell) -> Sight {
         match path.starts[watched] {
             Start::Positive => Sight::Unclear,
-            Start::Below => Sight::AtOnce,
+            Start::Below => Sight::AtOnce(0),
             Start::Tangent => self.depart_tangent(path, watched, cell),
             Start::Zero(known) => match path.guard(watched) {
                 Watched::Affine(signal) => {
@@ -420,6 +444,7 @@ impl Walk {
         cell: Cell,
     ) -> Sight {
         let (phases, phase) = (path.phases, path.phase);
+        let is_doubtful = known.is_some();
         let [slope, curvature] = known.unwrap_or_else(|| {
             let [_, slope, curvature] = if cell.left == 0.0 {
                 signal.values_at_start(phases, phase)
@@ -433,8 +458,8 @@ impl Walk {
             let noise = signal.rate_rounding(phases, phase);
             [beyond(slope, noise[0]), beyond(curvature, noise[1])]
         });
-        if slope < 0.0 || (slope == 0.0 && curvature < 0.0) {
-            return Sight::AtOnce;
+        if let Some(order) = falls(slope, curvature) {
+            return Sight::AtOnce(if is_doubtful { DOUBTFUL + order } else { order });
         }
         let mut jet = Jet {
             curvature: seen.first_curvature,
@@ -466,8 +491,8 @@ impl Walk {
         };
         let start = curved.at(functions, path.phases, path.phase, &at);
         let slope = beyond(start.slope, start.rest[1]);
-        if slope < 0.0 || (slope == 0.0 && beyond(start.curvature, start.rest[2]) < 0.0) {
-            return Sight::AtOnce;
+        if let Some(order) = falls(slope, beyond(start.curvature, start.rest[2])) {
+            return Sight::AtOnce(order);
         }
         if self.seen[watched].jets.cell(0).rises(0.5 * cell.width) {
             Sight::Clear
@@ -493,7 +518,21 @@ impl Walk {
         };
         let mut seen = Seen::default();
         cells.look::<Plain>(&second, phases, phase, &mut self.moved, &mut seen);
-        self.depart_from_zero(path, &second, &seen, None, cell)
+        match self.depart_from_zero(path, &second, &seen, None, cell) {
+            Sight::AtOnce(rank) => Sight::AtOnce(2 + rank),
+            sight => sight,
+        }
+    }
+}
+
+/// The order of the derivative by which a guard that is zero becomes negative, if one of the
+/// first two makes it so.
+#[inline(always)]
+fn falls(slope: f64, curvature: f64) -> Option<usize> {
+    if slope < 0.0 {
+        Some(1)
+    } else {
+        (slope == 0.0 && curvature < 0.0).then_some(2)
     }
 }
 

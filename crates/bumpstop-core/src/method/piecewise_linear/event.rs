@@ -7,6 +7,7 @@ use super::held::Held;
 use super::phase::{Phase, Phases};
 use super::rows::ComplexBlock;
 use super::signal::{Instant, Signal};
+use super::still::Still;
 use crate::history::Event;
 use crate::law::{Affine, Guard, Law, LocalMotion, State};
 use crate::method::instant::{self, Moment};
@@ -32,7 +33,7 @@ pub(crate) struct Watch {
 
 impl Watch {
     /// Sets the signals for a phase that has just begun; `fired` are the guards that have reached
-    /// zero at this instant, `contacts` are the rigid stops.
+    /// zero at this instant, `contacts` are the rigid stops, `still` those touched without load.
     #[inline(always)]
     pub(crate) fn set<I: Instructions, L: Law>(
         &mut self,
@@ -41,7 +42,7 @@ impl Watch {
         phase: Phase,
         fired: &[(usize, Guard)],
         [q, v]: [&[f64]; 2],
-        contacts: &Contacts,
+        (contacts, still): (&Contacts, &Still),
     ) {
         let states = phases.states(phase);
         let moment = Moment {
@@ -67,6 +68,10 @@ impl Watch {
                 let signal = next_signal(&mut self.signals, self.guards.len());
                 let function = &guard.function;
                 signal.set::<I>(phases, phase, &views[first_view..], function, remaining);
+                let margin = still.margin(index, function);
+                if margin > 0.0 {
+                    signal.raise(margin);
+                }
                 let before = (fired.iter())
                     .find(|(law, _)| *law == index)
                     .map(|(_, fired)| fired);

@@ -92,7 +92,8 @@ impl<'a, L: Law> Flights<'a, L> {
         let number = run.phases.list.len() - 1;
         let phase = run.phases.list[number];
         let span = (limit - time).min(run.until_overflow(phase, q, v));
-        (run.scratch.watch).set::<I, L>(problem, &run.phases, phase, fired, [q, v], &run.contacts);
+        let rest = (&run.contacts, &run.still);
+        (run.scratch.watch).set::<I, L>(problem, &run.phases, phase, fired, [q, v], rest);
         let watch = &run.scratch.watch;
         let path = Path {
             phases: &run.phases,

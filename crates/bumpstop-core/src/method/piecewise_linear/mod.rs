@@ -46,6 +46,7 @@ mod singles;
 mod spectrum;
 mod splitting;
 mod stiff;
+mod still;
 mod subspaces;
 mod tables;
 mod view;
@@ -78,12 +79,17 @@ use response::Stretch;
 use spectrum::{Secular, Spectrum, Workbench};
 use std::cell::Cell;
 use std::sync::Arc;
+use still::Still;
 
 /// The method's name.
 pub const NAME: &str = "exact";
 
 /// Switches of each law at one instant after which the run is given up.
 const MOST_SWITCHES_AT_ONCE: usize = 32;
+
+/// Switches of each law at one instant after which it is rounding that switches them, or a state
+/// that laws do not agree on.
+const SWITCHES_WITHOUT_SENSE: usize = 8;
 
 /// Displacements and velocities beyond which a motion that grows is given up: their squares are
 /// numbers still.
@@ -154,6 +160,7 @@ struct Run<'a, L> {
     events: Vec<Event>,
     certificate: Certificate,
     contacts: Contacts,
+    still: Still,
     scratch: Box<Scratch>,
 }
 
@@ -167,6 +174,7 @@ impl<'a, L: Law> Run<'a, L> {
             events: Vec::new(),
             certificate: Certificate::default(),
             contacts: Contacts::new(problem),
+            still: Still::default(),
             scratch: SCRATCH.take().unwrap_or_default(),
         }
     }
@@ -196,7 +204,7 @@ impl<'a, L: Law> Run<'a, L> {
                 phase,
                 &self.scratch.fired,
                 [&q, &v],
-                &self.contacts,
+                (&self.contacts, &self.still),
             );
             let functions = Guards {
                 problem,
@@ -256,12 +264,32 @@ impl<'a, L: Law> Run<'a, L> {
                 self.scratch.fired.retain(|(law, _)| *law != event.law);
                 self.scratch.fired.push((event.law, guard));
                 self.events.push(event);
+                self.still.release(event.law);
+            }
+            if at_once == SWITCHES_WITHOUT_SENSE * problem.laws.len() {
+                self.find_still(time, &states, [&q, &v]);
             }
             if !self.contacts.is_empty() {
                 (self.contacts).see_phase(problem, &self.scratch.watch, crossing.time);
                 self.meet(cause, time, &q, &mut v, &mut states)?;
             }
         }
+    }
+
+    /// Lets the stops that are touched without load keep their states.
+    #[cold]
+    fn find_still(&mut self, time: f64, states: &[State], [q, v]: [&[f64]; 2]) {
+        let moment = Moment {
+            time,
+            displacement: q,
+            velocity: v,
+        };
+        let phase = self.phases.list[self.phases.list.len() - 1];
+        let fastest = self.phases.spectra[phase.spectrum].pace();
+        let still = &mut self.still;
+        let missed = still.find(self.problem, states, fastest, moment);
+        self.certificate.missed = self.certificate.missed.max(missed);
+        self.scratch.fired.retain(|(law, _)| !still.is(*law));
     }
 
     /// For how long a phase that begins like this stays within numbers: beyond, the walk would

@@ -286,6 +286,11 @@ impl Signal {
         rate
     }
 
+    /// Adds a constant.
+    pub(crate) fn raise(&mut self, by: f64) {
+        self.polynomial.add(0, by);
+    }
+
     /// Changes the sign.
     pub(crate) fn negate(&mut self) {
         for terms in &mut self.terms {
