@@ -11,7 +11,7 @@ from bumpstop.arguments import FloatArray
 from bumpstop.errors import InputError
 from bumpstop.loads.moving_supports import MovingSupports
 from bumpstop.loads.support_motion import SupportMotion
-from bumpstop.loads.time import scaled
+from bumpstop.loads.time import resolved, scaled
 from bumpstop.structure.model import StrainModel
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from bumpstop.structure.gauge import Gauge
 
 __all__ = [
+    "base_acceleration",
     "carried_field",
     "carried_form",
     "carried_gauge",
@@ -103,6 +104,22 @@ def carried_form(
             size = float(form.of(load.field(problem.basis.model)))
             if size != 0.0:
                 total += size * load.travel(problem.duration).at(times, derivative)
+    return total
+
+
+def base_acceleration(problem: Problem, node: str, dof: str, times: FloatArray) -> FloatArray:
+    """Return the acceleration of a base that results are told from, at a node, (time,).
+
+    Zero where they are told from the still ground.
+    """
+    total = np.zeros(len(times))
+    model = problem.basis.model
+    for load in problem.loads:
+        if model is not None and isinstance(load, MovingSupports) and not load.is_absolute:
+            size = float(model.displacement_form(node, dof).of(load.field(model)))
+            functions = load.accelerations
+            terms = resolved(functions, problem.duration) or functions
+            total += size * (sum(term.at(times) for term in terms) if terms else 1.0)
     return total
 
 

@@ -128,6 +128,26 @@ def test_they_read_what_the_functions_read(tmp_path: Path) -> None:
     assert scar.facts[-1].value == pytest.approx(float(expected_wear["depth"][-1]), rel=1e-3)
 
 
+def test_floor_spectra_are_of_the_absolute_acceleration(tmp_path: Path) -> None:
+    """Whether results are told from the ground or from the supports that shake."""
+    shaking = (
+        "\n[base_motion]\nacceleration = [0, 3.0, 0]\n"
+        'harmonics = [{{ frequency = 3.0, sine = 1.0 }}]\nframe = "{frame}"\n'
+    )
+    found = []
+    for frame in ("relative", "absolute"):
+        file = tmp_path / f"{frame}.toml"
+        table = f"[results.floor]\n{RESULTS['floor']}\n"
+        file.write_text(CASE + shaking.format(frame=frame) + table)
+        case = bs.load_case(file)
+        (floor,) = case.results["base"]
+        (first, _) = floor.read(bs.simulate(case.problems["base"])).figures
+        found.append(np.asarray(first.array))
+    np.testing.assert_allclose(found[0], found[1], rtol=1e-9)
+    # A stiff oscillator on the floor feels no less than the ground does.
+    assert found[0][-1] > 2.9
+
+
 @pytest.mark.parametrize(
     ("table", "key", "what"),
     [

@@ -223,6 +223,21 @@ def test_rigid_stops_have_impulses_but_no_rms_force() -> None:
     assert found.blocks["rms_force"][2] == pytest.approx(9.81, rel=1e-12)
 
 
+def test_the_last_blow_before_a_rest_is_one_of_the_impacts() -> None:
+    """It and the rest begin at one instant; each keeps its own speed and impulse."""
+    basis = bs.ModalBasis.from_modes(frequency=[0.0], shapes={("ball", "dy"): [1.0]})
+    floor = bs.RigidStop("floor", node="ball", normal=(0, 1, 0), gap=1.0, restitution=0.5)
+    weight = bs.NodalForce("weight", node="ball", force=(0, -9.81, 0))
+    run = bs.simulate(bs.Problem(basis, laws=[floor], loads=[weight], duration=3.0))
+    blows = run.impacts[run.impacts["stop"] == "floor"]
+    counted = bs.contact_impacts(run, "floor")
+    assert len(counted) == len(blows)
+    for column in ("closing_speed", "impulse", "peak_force"):
+        np.testing.assert_array_equal(counted[column], blows[column])
+    speed = np.sqrt(2.0 * 9.81)
+    assert counted["closing_speed"][:5].to_numpy() == pytest.approx(speed * 0.5 ** np.arange(5))
+
+
 def test_a_stop_that_is_never_hit() -> None:
     found = bs.contact_statistics(bouncing(0.1), "floor")
     assert found["impact_count"] == found["mean_force"] == found["contact_fraction"] == 0.0

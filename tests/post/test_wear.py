@@ -1,6 +1,7 @@
 """Wear of contacts whose force and sliding are known."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -187,6 +188,14 @@ def test_refuses() -> None:
     rigid = bs.simulate(bs.Problem(basis, laws=[wall], initial=start, duration=2.0))
     with pytest.raises(bs.InputError, match="is rigid"):
         bs.wear_work(rigid, "wall")
+    # Nor where it comes to rest, and is loaded for a time.
+    damped = replace(wall, restitution=0.3)
+    weight = bs.NodalForce("weight", node="P", force=(-50.0, 0, 0))
+    problem = bs.Problem(basis, laws=[damped], loads=[weight], initial=start, duration=2.0)
+    resting = bs.simulate(problem)
+    assert float(bs.contact_impacts(resting, "wall")["contact_time"].max()) > 0.5
+    with pytest.raises(bs.InputError, match="is rigid"):
+        bs.wear_work(resting, "wall")
     sum_of_dofs = bs.Stop("sum", terms={("P", "dx"): 1.0}, stiffness=1e3)
     run = bs.simulate(bs.Problem(basis, laws=[sum_of_dofs], initial=start, duration=1.0))
     with pytest.raises(bs.InputError, match="no known direction"):

@@ -182,9 +182,13 @@ def _told(
     Of a whole contact they are the core's; of its parts they are found here.
     """
     contacts = impacts_of(response, law)
-    owner = np.searchsorted(contacts["start"], spans.starts, side="right") - 1
-    whole = np.bincount(owner, minlength=1)[owner] == 1
-    whole &= threshold == 0.0
+    if hasattr(response.problem.laws[law], "restitution"):
+        # A rest may begin with the last blow, at the same instant.
+        owner, whole = np.arange(len(spans.starts)), np.full(len(spans.starts), fill_value=True)
+    else:
+        owner = np.searchsorted(contacts["start"], spans.starts, side="right") - 1
+        whole = np.bincount(owner, minlength=1)[owner] == 1
+        whole &= threshold == 0.0
     names = ("peak_force", "peak_time", "impulse", "closing_speed")
     told = [contacts[name][owner] for name in names]
     parts = Spans(spans.starts[~whole], spans.ends[~whole])

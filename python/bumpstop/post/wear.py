@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from bumpstop.arguments import FloatArray, finite, not_negative, positive, series
 from bumpstop.errors import InputError
 from bumpstop.post.contacts import integrals_of, loaded_spans
+from bumpstop.post.impacts import impacts_of
 from bumpstop.post.of_run import of_run
 from bumpstop.post.sliding import sliding_speed
 from bumpstop.post.spans import Spans, spans_within, state_spans
@@ -329,9 +330,9 @@ def sliding_spans(response: Response, stop: str) -> Spans:
     """Return when a stop is loaded and friction does not hold it."""
     law = response.stop_index(stop)
     loaded = loaded_spans(response, stop, 0.0)
-    if len(loaded.starts) and not (loaded.ends > loaded.starts).any():
+    if np.isinf(impacts_of(response, law)["peak_force"]).any():
         what = "is rigid: no work is known of its impacts, which take no time"
-        raise InputError(what, key="stop", value=stop)
+        raise InputError(what, key="stop", value=stop, hint="give it a stiffness")
     if getattr(response.problem.laws[law], "friction", None) is None:
         return loaded
     return state_spans(response, law, lambda state: state.startswith("slip"))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bumpstop.arguments import FloatArray, one_of
+from bumpstop.carried import base_acceleration
 from bumpstop.errors import InputError
 from bumpstop.post.results.reading import Drawn, Reading, check_span, check_step
 
@@ -90,7 +91,7 @@ class Spectrum:
 
 @dataclass(frozen=True)
 class FloorSpectrum:
-    """Response spectra of the acceleration of a node; see `response_spectrum`."""
+    """Response spectra of the absolute acceleration of a node; see `response_spectrum`."""
 
     name: str
     _: KW_ONLY
@@ -118,7 +119,8 @@ class FloorSpectrum:
         from bumpstop.post.response_spectrum import response_spectrum
 
         sampled = response.at(_grid(response, self.start, self.end, self.step))
-        motion = sampled.acceleration(self.node, self.dof)
+        own = sampled.acceleration(self.node, self.dof)
+        motion = own + base_acceleration(response.problem, self.node, self.dof, sampled.times)
         found = []
         for damping in self.damping:
             spectrum = response_spectrum(motion, self.frequencies, damping, quantity=self.quantity)

@@ -123,7 +123,7 @@ class SpectrumTable(Window):
 
 
 class ResponseSpectrumTable(Window):
-    """Response spectra of the acceleration of a node."""
+    """Response spectra of the absolute acceleration of a node."""
 
     type: Literal["response_spectrum"] = Field(description="Kind of result")
     node: Node = Field(description="The node or point that shakes the oscillators")
