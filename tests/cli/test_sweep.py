@@ -182,7 +182,7 @@ def test_a_full_disk_loses_nothing(tmp_path: Path) -> None:
     assert "study.zarr: store: cannot be written: File too large" in line
     assert "make room, or name another folder" in line  # not even the study itself had room
     assert not store.exists()
-    assert subprocess.run([*words, "--resume"], capture_output=True, check=False).returncode == 0
+    assert subprocess.run(words, capture_output=True, check=False).returncode == 0
     whole = tmp_path / "whole.zarr"
     assert main(["sweep", str(study), "--workers", "1", "--store", str(whole)]) == 0
     assert content(store) == content(whole)
@@ -289,3 +289,27 @@ def test_interrupted(given: str, tmp_path: Path) -> None:
     assert lines[-1] == "interrupted"
     assert "of 100000 runs are kept; go on by --resume" in lines[0]
     assert len(lines) == 2
+
+
+def test_a_run_of_a_study_that_has_changed_is_not_opened(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path)
+    assert main(["sweep", str(path), "--workers", "1", "--no-report"]) == 0
+    case = tmp_path / "case.toml"
+    case.write_text(CASE.replace("-3.0]", "-6.0]"))
+    capsys.readouterr()
+    line = refused(capsys, str(path), "--open", "3")
+    assert "the study has changed: case.initial.translation.velocity.2 was -3.0" in line
+    assert not (tmp_path / "study-run-3").exists()
+    case.write_text(CASE)
+    assert main(["sweep", str(path), "--open", "3", "--json"]) == 0
+
+
+def test_a_store_that_is_not_there_is_not_resumed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = written(tmp_path)
+    line = refused(capsys, str(path), "--resume", "--store", str(tmp_path / "nothere.zarr"))
+    assert "nothere.zarr: store: no such store; leave out --resume" in line
+    assert not (tmp_path / "nothere.zarr").exists()

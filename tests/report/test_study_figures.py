@@ -223,6 +223,12 @@ def test_sobol_and_tornado_charts() -> None:
         bs.sobol_chart(indices, "tip")
 
 
+def test_tornado_charts_are_of_parameters_that_go_alone() -> None:
+    grid = xr.Dataset({"force": (("a", "b"), np.ones((2, 2)))})
+    with pytest.raises(bs.InputError, match="must be of a study of one parameter at a time"):
+        bs.tornado_chart(grid, "force")
+
+
 def test_the_chart_of_a_search() -> None:
     values = [np.nan, 3.0, 1.0, 3.0, 4.0, np.nan, 2.0]
     found = xr.Dataset({"force": ("run", values), "failed": ("run", np.isnan(values))})

@@ -183,3 +183,4 @@ def test_a_scheduler_is_of_no_use(path: Path, tmp_path: Path) -> None:
         pytest.raises(bs.InputError, match="scheduler: is of no use"),
     ):
         study.run(tmp_path / "study.zarr", scheduler=cluster)
+    assert not (tmp_path / "study.zarr").exists()

@@ -136,3 +136,8 @@ def test_what_is_refused(wrong: object, told: str) -> None:
     with pytest.raises(bs.InputError) as error:
         wrong()  # type: ignore[operator]
     assert told in str(error.value)
+
+
+def test_a_distribution_that_does_not_scatter_is_refused_in_one_line() -> None:
+    with pytest.raises(bs.InputError, match="there is no normal distribution with these"):
+        bs.Distribution("normal", mean=1.0, standard_deviation=0.0)

@@ -156,7 +156,7 @@ def test_searches_from_files(tmp_path: Path) -> None:
     with pytest.raises(bs.InputError, match=r"execution\.chunk: is a generation in a search"):
         bs.load_study(file)
     file.write_text(text.replace("count = 50", 'count = 15\nof = "force"'))
-    with pytest.raises(bs.InputError, match="a generation has 16 runs, 8 for each parameter"):
+    with pytest.raises(bs.InputError, match=r"sampling\.count: a generation has 16 runs, 8 for"):
         bs.load_study(file)
     file.write_text(text.replace("count = 50", 'of = "force"'))
     with pytest.raises(bs.InputError, match=r"count: is missing; say how many"):

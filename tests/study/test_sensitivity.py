@@ -127,6 +127,8 @@ def test_the_worst_case_is_found_within(case: bs.Case) -> None:
 def test_searches_that_cannot_be(case: bs.Case) -> None:
     with pytest.raises(bs.InputError, match="runs: a generation has 8 runs, 8 for each parameter"):
         bs.worst_case(case, {GAP: bs.Range(0.1, 0.2)}, FORCE, runs=3)
+    with pytest.raises(bs.InputError, match="output: must be an Output"):
+        bs.worst_case(case, {GAP: bs.Range(0.1, 0.2)}, {"force": FORCE})  # type: ignore[arg-type]
     with pytest.raises(bs.ComputationError, match="all of the first 8 runs failed: stops"):
         bs.worst_case(case, {STIFFNESS: bs.Range(-2.0, -1.0)}, FORCE, runs=16)
     with pytest.raises(bs.ComputationError, match="none of 80 runs has a value of what is looked"):

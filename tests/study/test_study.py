@@ -11,6 +11,7 @@ import xarray as xr
 import bumpstop as bs
 from bumpstop.study import pool
 from bumpstop.study.evaluation import Evaluator, Recipe
+from bumpstop.study.execution import Progress
 from tests.study.bouncing import CASE, IN_PYTHON, STUDY, written
 
 SPEED, MASS = 3.0, 2.0
@@ -375,10 +376,21 @@ def test_numbers_of_modes_in_equal_ratios_and_by_chance() -> None:
     assert set(drawn["basis.modes"].values.tolist()) <= {2, 3, 4}
 
 
-def test_a_store_that_lost_a_file_does_not_go_on(bouncing: bs.Study, tmp_path: Path) -> None:
+@pytest.mark.parametrize("array", ["place", "status"])
+@pytest.mark.parametrize("emptied", [False, True])
+def test_chunks_whose_files_are_lost_are_made_again(
+    bouncing: bs.Study, tmp_path: Path, array: str, emptied: bool
+) -> None:
+    """Files that are gone, or empty as a loss of power leaves them."""
     store = tmp_path / "many.zarr"
     bouncing.run(store, workers=1)
-    assert bouncing.run(store, workers=1, resume=True).equals(bouncing.run(workers=1))
-    (store / "place" / "c" / "1" / "0").unlink()
-    with pytest.raises(bs.InputError, match="a file of runs that have been made is gone"):
-        bouncing.run(store, workers=1, resume=True)
+    expected = {file: file.read_bytes() for file in store.rglob("*") if file.is_file()}
+    (lost,) = (store / array / "c").glob("1/0" if array == "place" else "1")
+    if emptied:
+        lost.write_bytes(b"")
+    else:
+        lost.unlink()
+    told: list[Progress] = []
+    bouncing.run(store, workers=1, resume=True, progress=told.append)
+    assert len(told) == 1
+    assert {file: file.read_bytes() for file in store.rglob("*") if file.is_file()} == expected

@@ -224,7 +224,7 @@ def _sweep(parser: ArgumentParser) -> Callable[[Namespace], int]:
     parser.add_argument("--open", type=int, metavar="RUN", default=None, help=told)
     told = "A dask scheduler whose workers make the runs: its address or scheduler file."
     parser.add_argument("--scheduler", metavar="ADDRESS", default=None, help=told)
-    told = "Go on with a store that is there."
+    told = "Go on with a store, which must be there."
     parser.add_argument("--resume", action="store_true", help=told)
     _takes_json(parser)
     told = "Write the report, a page beside the store, or not."

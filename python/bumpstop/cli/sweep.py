@@ -51,7 +51,7 @@ def sweep_command(
     study, folder = loaded.study, store or loaded.store
     if workers is not None:
         count("--workers", workers)
-    with hired(scheduler) as cluster:
+    with hired(study, scheduler) as cluster:
         opened = study.opened(folder, resume=resume)
         try:
             with runs_display(loaded.title) as tell:

@@ -89,9 +89,6 @@ def execute(
     chunks = np.flatnonzero(store.read("status")[:: layout.chunk] == 0).tolist()
     processes = usable_cores() if workers is None else count("workers", workers)
     keeper = _Keeper(layout, store, progress)
-    if cluster is not None and (study.follows or study.searches):
-        what = "is of no use where runs wait for those before them"
-        raise InputError(what, key="scheduler", hint="leave it out")
     if study.searches:
         processes = min(processes, layout.chunk)
         search(study, store.read, keeper.keep, processes)
@@ -143,22 +140,28 @@ class _Keeper:
 
 
 @contextmanager
-def hired(scheduler: Scheduler | None) -> Iterator[Cluster | None]:
+def hired(study: Study, scheduler: Scheduler | None) -> Iterator[Cluster | None]:
     """Connect to a scheduler for a while; None where there is none.
 
     Parameters
     ----------
+    study
+        What it is for.
     scheduler
         Its address, its scheduler file, or a cluster or client of ``distributed``.
 
     Raises
     ------
     InputError
-        If ``distributed`` is not installed, or the scheduler does not answer.
+        If the study has no use for it, ``distributed`` is not installed, or the scheduler does
+        not answer.
     """
     if scheduler is None:
         yield None
         return
+    if study.follows or study.searches:
+        what = "is of no use where runs wait for those before them"
+        raise InputError(what, key="scheduler", hint="leave it out")
     if find_spec("distributed") is None:
         hint = "pip install 'bumpstop[cluster]', or leave it out to use this machine"
         what = "needs the package distributed, which is not installed"

@@ -70,7 +70,7 @@ def _loaded(file: Path, tables: StudyFile) -> LoadedStudy:
     with keyed("sampling"):
         table = tables.sampling
         sampling = Sampling() if table is None else Sampling(**dict(table))
-    with keyed(renamed={"chunk": "execution.chunk"}):
+    with keyed(renamed={"chunk": "execution.chunk", "count": "sampling.count"}):
         study = Study(
             case,
             tables.parameters,

@@ -58,6 +58,10 @@ _CLOSER = 16
 _LOOKS = 5
 
 
+MOST_LATEST = 1_000_000
+"""Impacts of a run that are kept one by one."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Output:
     """A number, or numbers at given instants, that a study keeps of each run.
@@ -232,7 +236,7 @@ class Output:
             raise InputError("is one value of the whole run", key="times", value=self.times)
 
     def _check_latest(self) -> None:
-        count("latest", self.latest)
+        count("latest", self.latest, most=MOST_LATEST)
         if not self._is_of_impacts:
             what = "belongs to quantities of impacts"
             raise InputError(what, key="latest", value=self.quantity)

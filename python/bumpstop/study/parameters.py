@@ -341,8 +341,10 @@ class Distribution:
         for key in renamed or shapes:
             if key not in given:
                 raise InputError("is missing", key=key, hint=f"{self.name} needs it")
-        frozen = kind(**{renamed.get(key, key): value for key, value in given.items()})
-        if not np.isfinite(frozen.ppf(0.5)):
+        with np.errstate(all="ignore"):  # of parameters that are refused below
+            frozen = kind(**{renamed.get(key, key): value for key, value in given.items()})
+            median = frozen.ppf(0.5)
+        if not np.isfinite(median):
             what = f"there is no {self.name} distribution with these parameters"
             raise InputError(what, value=dict(self.parameters))
         return frozen

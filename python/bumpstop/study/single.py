@@ -15,7 +15,7 @@ from bumpstop.files import written_whole
 from bumpstop.io.case.overrides import overridden
 from bumpstop.io.case.written import toml_text
 from bumpstop.study.layout import STATE, worded
-from bumpstop.study.store import read_store
+from bumpstop.study.store import check_definition, read_store
 
 if TYPE_CHECKING:
     from bumpstop.study.study import Study
@@ -41,8 +41,9 @@ def write_case(
     path
         The file. One of that name is replaced.
     store
-        Where runs follow one another: the study's store, which has the state that the run
-        starts from. Where the worst case is searched for: it has the values of the parameters.
+        The study's store, which the study must be that of. It is needed where runs follow one
+        another, since it has the state that the run starts from, and where the worst case is
+        searched for: it has the values of the parameters.
 
     Returns
     -------
@@ -53,7 +54,7 @@ def write_case(
     ------
     InputError
         If there is no such run, a value cannot be put into the case, the store does not have
-        its start, or the file cannot be written.
+        its start or is of another study, or the file cannot be written.
     """
     start = checked_start(study, run, store)
     file = Path(path)
@@ -80,11 +81,14 @@ def checked_start(
     Raises
     ------
     InputError
-        If there is no such run, or the store does not have its start or its values.
+        If there is no such run, the store does not have its start or its values, or is of another
+        study, such as this one before it was changed.
     """
     if count("run", run, least=0) >= study.runs.count:
         what = f"the study has runs 0 to {study.runs.count - 1}"
         raise InputError(what, key="run", value=run)
+    if store is not None and Path(store).exists():
+        check_definition(Path(store), study.definition)
     if run >= study.runs.known:
         _read_values(study, run, store)
     if not study.follows or run % (study.layout.count // 2) == 0:

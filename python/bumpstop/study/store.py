@@ -26,7 +26,15 @@ if TYPE_CHECKING:
 
     from bumpstop.study.evaluation import Kept
 
-__all__ = ["MemoryStore", "Reader", "Store", "ZarrStore", "open_zarr_store", "read_store"]
+__all__ = [
+    "MemoryStore",
+    "Reader",
+    "Store",
+    "ZarrStore",
+    "check_definition",
+    "open_zarr_store",
+    "read_store",
+]
 
 DEFINITION = "bumpstop_study"
 """Attribute of a store that says which study it is of."""
@@ -115,17 +123,15 @@ class ZarrStore:
         with _said(self._path):
             return np.asarray(self._arrays[name][part])
 
-    def check_whole(self) -> None:
-        """Raise where the file of a chunk that has been made is gone."""
+    def forget_damaged(self) -> None:
+        """Take chunks of which a file is gone for not made: they are made again, bit by bit."""
         made = np.flatnonzero(self.read("status")[:: self._layout.chunk]).tolist()
         for name, array in self._layout.arrays.items():
             rest = ["0"] * (len(array.shape) - 1)
+            # Runs without a message leave no file of it.
             for chunk in made if name != "message" else ():
-                file = self._path.joinpath(name, "c", str(chunk), *rest)
-                if not file.exists():
-                    what = "is damaged: a file of runs that have been made is gone"
-                    hint = "begin anew in another store, or bring the file back"
-                    raise InputError(what, file=str(file), key="store", hint=hint)
+                if not self._path.joinpath(name, "c", str(chunk), *rest).exists():
+                    self._status[self._layout.part(chunk)] = 0
 
 
 def open_zarr_store(
@@ -147,22 +153,30 @@ def open_zarr_store(
     Raises
     ------
     InputError
-        If it cannot be written, is there and must not, or is another study's.
+        If it cannot be written, is there and must not, is not there and must, or is another
+        study's.
     """
     _require_zarr()
     if not path.exists():
+        if resume:
+            hint = "leave out --resume (resume=True) to begin one"
+            raise InputError("no such store", file=str(path), key="store", hint=hint)
         _make(path, layout, definition)
         return ZarrStore(path, layout, filled=False)
     if not resume:
         hint = "go on with it by --resume (resume=True), or name another store"
         raise InputError("is there already", file=str(path), key="store", hint=hint)
-    _check_definition(path, definition)
+    check_definition(path, definition)
     if not os.access(path, os.W_OK | os.X_OK):
         raise InputError("is read-only", file=str(path), key="store")
     for partial in path.rglob(_PARTIAL):
         partial.unlink(missing_ok=True)
+    # A loss of power may leave files empty that were being written.
+    for file in path.rglob("c/**/*"):
+        if file.is_file() and not file.stat().st_size:
+            file.unlink()
     store = ZarrStore(path, layout, filled=True)
-    store.check_whole()
+    store.forget_damaged()
     return store
 
 
@@ -224,8 +238,21 @@ def _make(path: Path, layout: Layout, definition: dict[str, Any]) -> None:
         part.rename(path)
 
 
-def _check_definition(path: Path, definition: dict[str, Any]) -> None:
-    """Raise where a store is of another study, and say what differs."""
+def check_definition(path: Path, definition: dict[str, Any]) -> None:
+    """Raise where a store is of another study, and say what differs.
+
+    Parameters
+    ----------
+    path
+        Its folder.
+    definition
+        What the study is.
+
+    Raises
+    ------
+    InputError
+        That says so.
+    """
     found = difference(_opened(path).attrs[DEFINITION], json.loads(json.dumps(definition)))
     if found is not None:
         key, old, new = found

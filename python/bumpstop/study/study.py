@@ -246,7 +246,7 @@ class Study:
         ComputationError
             If the scheduler goes away; what was made before is in the store.
         """
-        with hired(scheduler) as cluster:
+        with hired(self, scheduler) as cluster:
             opened = self.opened(store, resume=resume)
             execute(self, opened, workers, progress, cluster)
         return self.labelled(opened)

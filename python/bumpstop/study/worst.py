@@ -78,6 +78,8 @@ def worst_case(
         If none of the first runs could be made, or no run has the result, as where the stop
         whose impacts it is of is never hit.
     """
+    if not isinstance(output, Output):
+        raise InputError("must be an Output", key="output", value=output)
     if output.shape:
         raise InputError("must be a single number", key="output.times", hint="give a statistic")
     with keyed(renamed={"count": "runs"}):

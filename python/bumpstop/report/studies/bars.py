@@ -88,6 +88,9 @@ def tornado_figure(swings: xr.Dataset, output: str) -> Figure:
     if output not in known:
         hint = did_you_mean(output, known)
         raise InputError("no such result", key="output", value=output, hint=hint)
+    if "side" not in swings.dims:
+        what = "must be of a study of one parameter at a time"
+        raise InputError(what, key="swings", hint="take what bs.one_at_a_time returns")
     array = swings[output]
     axis = output_axis(array)
     low, middle, high = (axis.scaled(array.sel(side=side).values) for side in swings.side.values)
