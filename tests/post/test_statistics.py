@@ -218,6 +218,8 @@ def test_rigid_stops_have_impulses_but_no_rms_force() -> None:
     assert found["mean_force"] * 3.0 == pytest.approx(3.0 * 9.81, abs=1e-5)
     assert math.isinf(found["largest_force"])
     assert math.isnan(found["rms_force"])
+    assert math.isnan(found.uncertainty["rms_force"])
+    assert "without 20 that have no finite one" in found.histogram().attrs["title"]
     # It rests from 1.35 s on.
     assert found.blocks["mean_force"][2] == pytest.approx(9.81, rel=1e-12)
     assert found.blocks["rms_force"][2] == pytest.approx(9.81, rel=1e-12)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bumpstop.errors import InputError
 from bumpstop.post.energy import ledger
 
 if TYPE_CHECKING:
@@ -31,6 +32,8 @@ _ACCOUNT = (
 
 def equal_responses(one: Response, other: Response) -> bool:
     """Return whether two responses tell the same, to the bit; see `Response.equals`."""
+    if not isinstance(other, type(one)):
+        raise InputError("must be a response", key="other", value=other)
     if any(getattr(one, name) != getattr(other, name) for name in _ACCOUNT):
         return False
     if not np.array_equal(one.times, other.times) or not _same_problem(one, other):

@@ -122,7 +122,8 @@ class ContactStatistics:
 
         Classes are equally wide, from the smallest value to the largest; values on a bound
         count above it, the largest in the last class. Values that are the same but for rounding
-        are in one class, as wide as nothing.
+        are in one class, as wide as nothing. Impacts without a finite value of it, such as the
+        forces of blows on rigid stops, are in none, and the title says how many they are.
 
         Raises
         ------
@@ -143,6 +144,8 @@ class ContactStatistics:
             "to": (column, edges[1:], {"units": what.units}),
         }
         title = f"Impacts on {self.stop} by {what.long_name}"
+        if len(finite_ones) < len(values):
+            title += f", without {len(values) - len(finite_ones)} that have no finite one"
         attributes = STATISTICS["impact_count"].attributes | {"stop": self.stop}
         return xr.DataArray(
             counts,
@@ -229,13 +232,18 @@ def contact_statistics(
         for number in range(blocks)
     ]
     by_block = {name: np.array([part[name] for part in one_by_one]) for name in STATISTICS}
+    values = _statistics(
+        columns, works.sum(axis=0), float(np.fmax.reduce(peaks)), float(edges[-1] - edges[0])
+    )
     return ContactStatistics(
         stop=stop,
         columns=columns,
-        values=_statistics(
-            columns, works.sum(axis=0), float(np.fmax.reduce(peaks)), float(edges[-1] - edges[0])
-        ),
-        uncertainty={name: _standard_error(name, each) for name, each in by_block.items()},
+        values=values,
+        # Of what is not known of the whole, its blocks tell no error.
+        uncertainty={
+            name: math.nan if math.isnan(values[name]) else _standard_error(name, each)
+            for name, each in by_block.items()
+        },
         edges=edges,
         blocks=by_block,
         classes=classes,
