@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from numbers import Integral, Real
 from typing import Any, TypeAlias, TypeVar
 
@@ -94,6 +94,13 @@ def name(key: str, value: object) -> str:
     if not isinstance(value, str) or not value.strip():
         raise InputError("must be a name", key=key, value=value)
     return value
+
+
+def by_name(key: str, value: object) -> dict[str, Any]:
+    """Return things by their names, as a dict."""
+    if not isinstance(value, Mapping):
+        raise InputError("must be a dict, each by its name", key=key, value=value)
+    return dict(value)
 
 
 def one_of(key: str, value: object, known: Sequence[str]) -> str:

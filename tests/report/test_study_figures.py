@@ -2,6 +2,7 @@
 
 import tracemalloc
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -227,6 +228,14 @@ def test_tornado_charts_are_of_parameters_that_go_alone() -> None:
     grid = xr.Dataset({"force": (("a", "b"), np.ones((2, 2)))})
     with pytest.raises(bs.InputError, match="must be of a study of one parameter at a time"):
         bs.tornado_chart(grid, "force")
+
+
+@pytest.mark.parametrize(
+    "draw", [bs.heat_map, bs.sobol_chart, bs.tornado_chart, bs.search_chart, bs.basin_map]
+)
+def test_pictures_are_of_what_a_study_found(draw: Any) -> None:
+    with pytest.raises(bs.InputError, match="must be a Dataset"):
+        draw(5, "force")
 
 
 def test_the_chart_of_a_search() -> None:

@@ -196,6 +196,8 @@ def test_a_study_that_ended_is_resumed_to_the_same_bits(bouncing: bs.Study, tmp_
         bouncing.run(part, workers=1, progress=stop)
     unfinished = bs.open_study(part)
     assert np.count_nonzero(~np.isnan(unfinished.force)) == 6
+    not_made = unfinished.message == "not made yet"
+    assert np.array_equal(not_made, np.isnan(unfinished.force))
     (part / "force" / "c" / f"3.{'0' * 32}.partial").write_bytes(b"half")
     assert bouncing.run(part, workers=1, resume=True).identical(expected)
     assert files(part) == files(whole)
@@ -394,3 +396,32 @@ def test_chunks_whose_files_are_lost_are_made_again(
     bouncing.run(store, workers=1, resume=True, progress=told.append)
     assert len(told) == 1
     assert {file: file.read_bytes() for file in store.rglob("*") if file.is_file()} == expected
+
+
+@pytest.mark.parametrize(
+    ("given", "key"),
+    [
+        ({"parameters": [1]}, "parameters: must be a dict"),
+        ({"parameters": None}, "parameters: must be a dict"),
+        ({"outputs": bs.Output(quantity="impacts")}, "outputs: must be a dict"),
+        ({"basins": {"node": "P"}}, "basins: must be Basins"),
+        ({"parameters": {"stops.spring": [1, 2]}}, r'parameters\."stops\.spring": must be a table'),
+        (
+            {"parameters": {"stops.spring.stiffness": [200.0, True]}},
+            r'parameters\."stops\.spring\.stiffness": must be a number in N/m',
+        ),
+    ],
+)
+def test_what_is_of_another_kind_is_told_at_once(
+    bouncing: bs.Study, given: dict[str, object], key: str
+) -> None:
+    asked = {"parameters": {"stops.spring.gap": [0.1]}, "outputs": bouncing.outputs} | given
+    with pytest.raises(bs.InputError, match=key):
+        bs.Study(bouncing.case, **asked)  # type: ignore[arg-type]
+
+
+def test_stores_and_cases_are_paths(bouncing: bs.Study) -> None:
+    with pytest.raises(bs.InputError, match="store: must be the path of a folder"):
+        bouncing.run(5)  # type: ignore[arg-type]
+    with pytest.raises(bs.InputError, match="case: must be a case from a file"):
+        bs.study(5, {}, {})  # type: ignore[arg-type]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from bumpstop import _core
-from bumpstop.arguments import FloatArray, count, one_of
+from bumpstop.arguments import FloatArray, by_name, count, one_of
 from bumpstop.canonical import canonical_form
 from bumpstop.errors import InputError
 from bumpstop.methods import check_method
@@ -184,7 +184,7 @@ def made(
 def as_columns(parameters: Mapping[str, ArrayLike]) -> dict[str, FloatArray]:
     """Return parameters as arrays of one length."""
     columns: dict[str, FloatArray] = {}
-    for key, given in parameters.items():
+    for key, given in by_name("parameters", parameters).items():
         try:
             values = np.ascontiguousarray(given, dtype=np.float64)
         except (TypeError, ValueError) as error:
@@ -230,7 +230,7 @@ def _quantities(problem: Problem, outputs: Mapping[str, Output]) -> dict[str, _c
     if not outputs:
         raise InputError("there are none", key="outputs", hint="say what to keep of each run")
     quantities = {}
-    for key, output in outputs.items():
+    for key, output in by_name("outputs", outputs).items():
         if not isinstance(output, Output):
             raise InputError("must be an Output", key=f"outputs.{key}", value=output)
         if key in ("run", "failed", "message"):

@@ -21,6 +21,9 @@ _BESIDE = 2.0**-10
 _NO_KEY = ("unknown key", "leads nowhere", "cannot be changed by a variant")
 """What is said of a name that is no key of the case."""
 
+_TABLE = "must be a table"
+"""What is said of a number where the case has a table."""
+
 
 class CaseKeys:
     """The keys of a case by dotted name.
@@ -35,7 +38,7 @@ class CaseKeys:
         self._document = document
 
     def check(self, key: str, parameter: Parameter) -> None:
-        """Raise where there is no such key, or a text is not of its kind.
+        """Raise where there is no such key, it is a table, or a word is not of its kind.
 
         Numbers are judged run by run.
 
@@ -45,7 +48,7 @@ class CaseKeys:
             That says so.
         """
         first, *others = parameter.written or (1.0,)
-        for written in (first, *(other for other in others if isinstance(other, str))):
+        for written in (first, *(other for other in others if isinstance(other, str | bool))):
             self._check_value(key, written)
         for written in parameter.spread:
             # A difference may be below what values may be; its unit is theirs.
@@ -75,7 +78,7 @@ class CaseKeys:
         if error.what in _NO_KEY:
             what, place = f"the case has no such key: {error.key}", f'parameters."{key}"'
             raise InputError(what, key=place, hint=error.hint) from error
-        if isinstance(written, str):
+        if isinstance(written, str | bool) or error.what.startswith(_TABLE):
             _refuse(key, error)
 
     def _objection(self, key: str, value: object) -> InputError | None:

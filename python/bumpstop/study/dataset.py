@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["labelled"]
 
+NOT_MADE = "not made yet"
+"""Message of a run that is still to be made."""
 _OWN = ("message", "status")
 _BLOCK = 4096
 """Runs whose messages are read at a time."""
@@ -50,7 +52,8 @@ def labelled(
         beside it. Of runs that follow one another: over ``way`` and ``run``. Of each parameter
         alone: over ``parameter`` and ``side``, with its ``value``. Sobol's indices,
         where the runs are those that tell them, as ``NAME_first`` and ``NAME_total`` over
-        ``parameter``; NaN where a run has no such result. What has not been run yet is NaN.
+        ``parameter``; NaN where a run has no such result. What has not been run yet is NaN, and
+        its message says so.
     """
     import xarray as xr
 
@@ -80,9 +83,12 @@ def labelled(
             indices = indices_of_runs(values, sampling["count"])._asdict()
             for part, told_part in PARTS.items():
                 found[f"{name}_{part}"] = ("parameter", indices[part], {"long_name": told_part})
-    failed = read("status") == FAILED
+    status = read("status")
+    failed = status == FAILED
     found["failed"] = shaped.placed(failed, ())
-    found["message"] = shaped.placed(_messages(failed, read), ())
+    messages = _messages(failed, read)
+    messages[status == 0] = NOT_MADE
+    found["message"] = shaped.placed(messages, ())
     if "basins" in definition:
         classes = classified(Basins(**definition["basins"]), *map(read, SECTION))
         found["attractor"] = (*shaped.placed(classes.numbers, ()), _ATTRACTOR)

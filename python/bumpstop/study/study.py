@@ -10,7 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bumpstop.arguments import count, did_you_mean, name
+from bumpstop.arguments import by_name, count, did_you_mean, name
 from bumpstop.errors import InputError
 from bumpstop.io.case import Case, load_case
 from bumpstop.io.case.build import STRUCTURE
@@ -95,10 +95,12 @@ class Study:
         if not isinstance(self.case, Case) or not self.case.documents:
             hint = "load_case gives one"
             raise InputError("must be a case from a file", key="case", hint=hint)
-        given = {key: _parameter(key, value) for key, value in self.parameters.items()}
+        asked = by_name("parameters", self.parameters).items()
+        given = {key: _parameter(key, value) for key, value in asked}
         object.__setattr__(self, "parameters", given)
         object.__setattr__(self, "variant", _variant(self.case, self.variant))
-        object.__setattr__(self, "outputs", {**self.outputs, **self._sections()})
+        outputs = by_name("outputs", self.outputs)
+        object.__setattr__(self, "outputs", {**outputs, **self._sections()})
         if self.chunk is not None:
             count("chunk", self.chunk)
         self._check_parameters()
@@ -261,6 +263,8 @@ class Study:
         """Return where results are kept; see `run`."""
         if store is None:
             return MemoryStore(self.layout)
+        if not isinstance(store, str | PathLike):
+            raise InputError("must be the path of a folder", key="store", value=store)
         return open_zarr_store(Path(store), self.layout, self.definition, resume=resume)
 
     def _check_parameters(self) -> None:
@@ -274,6 +278,8 @@ class Study:
         """Return what tells attractors apart, where they are wanted."""
         if self.basins is None:
             return {}
+        if not isinstance(self.basins, Basins):
+            raise InputError("must be Basins", key="basins", value=self.basins)
         problem = self.case.problems.get(str(self.variant))
         if problem is None:
             raise InputError("is missing: nothing runs", key="run")
@@ -396,7 +402,7 @@ def study(
     >>> found.impacts.dims, found.impacts.shape
     (('stops.spring.gap', 'basis.modes'), (2, 2))
     """
-    loaded = case if isinstance(case, Case) else load_case(case)
+    loaded = load_case(case) if isinstance(case, str | PathLike) else case
     made = Study(
         loaded,
         parameters,

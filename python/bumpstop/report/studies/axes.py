@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = [
+    "check_results",
     "layout_over",
     "output_axis",
     "parameter_axis",
@@ -30,6 +31,13 @@ __all__ = [
 _LEAST_IN_LOG = 3
 _DECADES = 100.0
 """From this ratio of the largest value to the smallest on, ticks are at powers of ten alone."""
+
+
+def check_results(key: str, results: object) -> None:
+    """Raise where something is not what a study has found."""
+    if not hasattr(results, "data_vars"):
+        hint = "take what a study returns"
+        raise InputError("must be a Dataset", key=key, value=results, hint=hint)
 
 
 def parameters_of(results: xr.Dataset) -> list[str]:

@@ -12,7 +12,13 @@ from bumpstop.report.figures import Figure, as_plotly
 from bumpstop.report.palette import LIGHT
 from bumpstop.report.plotting import Axis, layout_of
 from bumpstop.report.scales import Scale
-from bumpstop.report.studies.axes import output_axis, parameters_of, required, run_numbers
+from bumpstop.report.studies.axes import (
+    check_results,
+    output_axis,
+    parameters_of,
+    required,
+    run_numbers,
+)
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -40,6 +46,7 @@ def sobol_chart(indices: xr.Dataset, output: str) -> go.Figure:
     InputError
         If there are no indices of such a result.
     """
+    check_results("indices", indices)
     return as_plotly(sobol_figure(indices, output))
 
 
@@ -58,6 +65,7 @@ def tornado_chart(swings: xr.Dataset, output: str) -> go.Figure:
     InputError
         If there is no such result.
     """
+    check_results("swings", swings)
     return as_plotly(tornado_figure(swings, output))
 
 

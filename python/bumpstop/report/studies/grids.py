@@ -14,6 +14,7 @@ from bumpstop.errors import InputError
 from bumpstop.report.figures import Figure, as_plotly
 from bumpstop.report.palette import LIGHT
 from bumpstop.report.studies.axes import (
+    check_results,
     layout_over,
     output_axis,
     parameter_axis,
@@ -59,6 +60,7 @@ def heat_map(
     InputError
         If there is no such output or parameter, or the study is none on a grid of two.
     """
+    check_results("results", results)
     return as_plotly(heat_figure(results, output, x, y))
 
 
@@ -78,6 +80,7 @@ def basin_map(results: xr.Dataset, x: str | None = None, y: str | None = None) -
     InputError
         If the study looked for no attractors, or is none on a grid of two parameters.
     """
+    check_results("results", results)
     return as_plotly(basin_figure(results, x, y))
 
 

@@ -11,7 +11,7 @@ from bumpstop.report.figures import Figure, as_plotly
 from bumpstop.report.palette import LIGHT
 from bumpstop.report.plotting import Axis, layout_of
 from bumpstop.report.scales import Scale
-from bumpstop.report.studies.axes import output_axis, required, run_numbers
+from bumpstop.report.studies.axes import check_results, output_axis, required, run_numbers
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -37,6 +37,7 @@ def search_chart(results: xr.Dataset, output: str) -> go.Figure:
     InputError
         If there is no such output, or not one number for each run.
     """
+    check_results("results", results)
     return as_plotly(search_figure(results, output))
 
 
