@@ -11,6 +11,7 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, finite, not_negative, one_of, positive
 from bumpstop.errors import InputError
+from bumpstop.post.blows import refuse_blows
 from bumpstop.post.of_run import check_run
 from bumpstop.quantities import QUANTITIES, dof_units
 from bumpstop.sampling import MOTIONS
@@ -47,7 +48,8 @@ class Stream:
     Raises
     ------
     InputError
-        If there is no such signal, or a number cannot be used.
+        If there is no such signal, a number cannot be used, or it is the force of a rigid stop,
+        which lacks its blows.
 
     Examples
     --------
@@ -79,6 +81,7 @@ class Stream:
         self.response = response
         self.quantity = one_of("quantity", quantity, tuple(QUANTITIES))
         self.target = target
+        refuse_blows(response.problem, quantity, *target)
         self.step = positive("step", step)
         self.start, self.end = first, last
         if self.sample(0, 1).ndim != 1:

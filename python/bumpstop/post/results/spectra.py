@@ -12,6 +12,7 @@ import numpy as np
 from bumpstop.arguments import FloatArray, one_of
 from bumpstop.carried import base_acceleration
 from bumpstop.errors import InputError
+from bumpstop.post.blows import refuse_blows
 from bumpstop.post.results.reading import Drawn, Reading, check_span, check_step
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ class Spectrum:
         check_span(self.start, self.end, problem)
         check_step(self.step, self.start, self.end, problem)
         _check_target(self.target, problem)
+        refuse_blows(problem, *self.target)
         self._check_window(problem)
 
     def _check_window(self, problem: Problem) -> None:
