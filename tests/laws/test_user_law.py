@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import bumpstop as bs
 
@@ -43,6 +44,34 @@ def test_time_and_memory_reach_it() -> None:
     mine = user(lambda q, v, t, z: z * t, memory_rate=lambda q, v, t, z: 2 * t, memory=0.5)
     x = end(one_mass(mine, duration=2.0), rtol=1e-12)
     assert x == pytest.approx(2.0**5 / 20 + 0.5 * 2.0**3 / 6, rel=1e-11)
+
+
+def test_a_hysteresis_of_bouc_and_wen_is_that_of_scipy() -> None:
+    """x'' = f(t) - 40 x - 60 z, z' = v - 3 |v| |z| z - v z^2: force and variable to 1e-8."""
+
+    def rate(v: float, z: float) -> float:
+        return v - 3.0 * abs(v) * abs(z) * z - v * z**2
+
+    mine = user(lambda q, v, t, z: -40.0 * q - 60.0 * z, memory_rate=lambda q, v, t, z: rate(v, z))
+    problem = one_mass(mine, place=0.05, speed=0.3, duration=4.0, loads=[shaking(8.0, 1.1)])
+    run = bs.simulate(problem, rtol=1e-12)
+    times = np.linspace(0.0, 4.0, 81)
+
+    def slope(t: float, y: Any) -> list[float]:
+        x, v, z = y
+        push = 8.0 * np.sin(2.0 * np.pi * 1.1 * t)
+        return [v, push - 40.0 * x - 60.0 * z, rate(v, z)]
+
+    known = solve_ivp(slope, (0.0, 4.0), [0.05, 0.3, 0.0], "DOP853", times, rtol=1e-13, atol=1e-15)
+    x, v, z = known.y
+    for quantity, expected in (("displacement", x), ("velocity", v)):
+        found = run.sample(quantity, "P", "dx", times=times)
+        assert np.abs(found - expected).max() < 1e-8 * np.abs(expected).max()
+    force = -40.0 * x - 60.0 * z
+    assert np.abs(run.sample("stop_force", "mine", times=times) - force).max() < 1e-8 * 60.0
+    memory = run.at(times).internal_variables("mine")["memory"].values
+    assert np.abs(memory - z).max() < 1e-8 * np.abs(z).max()
+    assert np.ptp(z) > 0.3  # of one at most: it yields
 
 
 def test_in_two_directions_it_couples_them() -> None:
@@ -147,6 +176,34 @@ def test_a_program_outside_is_asked_once_a_step_and_never_again() -> None:
     assert len(asked) == told
     assert asked == list(range(len(asked)))
     assert 500 <= len(asked) <= 500 + 64
+
+
+def test_a_program_outside_converges_to_what_scipy_makes_of_it() -> None:
+    """x'' = -40 x - 2 x' - 50 p with a pressure p' = 6 (x' - p) that the program carries itself."""
+
+    def error(steps: int) -> float:
+        h = 1.0 / steps
+
+        def exchange(step: int, q: float, v: float) -> float:
+            pressure[0] += h * 6.0 * (v - pressure[0])
+            return -40.0 * q - 2.0 * v - 50.0 * pressure[0]
+
+        pressure = [0.0]
+        law = bs.OutsideProgram("out", exchange=exchange, **HERE)
+        run = bs.simulate(one_mass(law, speed=1.0), "symplectic_euler", dt=h)
+        found = run.sample("displacement", "P", "dx", times=times)
+        return float(np.abs(found - known).max() / np.abs(known).max())
+
+    def slope(_: float, y: Any) -> list[float]:
+        x, v, p = y
+        return [v, -40.0 * x - 2.0 * v - 50.0 * p, 6.0 * (v - p)]
+
+    times = np.linspace(0.0, 1.0, 21)
+    start = [0.0, 1.0, 0.0]
+    known = solve_ivp(slope, (0.0, 1.0), start, "DOP853", times, rtol=1e-13, atol=1e-15).y[0]
+    coarse, fine = error(1000), error(8000)
+    assert fine < 5e-3
+    assert np.log(coarse / fine) / np.log(8.0) == pytest.approx(1.0, abs=0.05)
 
 
 def test_the_force_of_a_program_outside_is_read_as_it_was_told() -> None:
