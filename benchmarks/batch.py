@@ -7,6 +7,7 @@ arithmetic, of the peers against ours.
 """
 
 import argparse
+import math
 import resource
 import sys
 from collections.abc import Callable
@@ -129,24 +130,38 @@ def main() -> int:
 
 
 def grown(model: bs.Problem, largest: int) -> tuple[dict[int, float], float]:
-    """Return solutions a second by the number of runs, and the memory beside numbers in MB."""
+    """Return solutions a second by the number of runs, and the memory beside numbers in MB.
+
+    The rate is of what more runs take: a call of one filled lane, which builds problem and
+    Dataset, is taken off.
+    """
     rates, beside = {}, 0.0
     solved(model, samples(LANES), lanes=True)  # loads what results need
     before = most_memory()
-    print(f"{'runs':>10}{'a second':>12}{'MB in and out':>16}{'MB beside':>12}")
+    fixed, _ = shortest(model, LANES)
+    print(f"a call of {LANES} runs takes {fixed * 1e3:.2f} ms")
+    heads = ("runs", "a second", "beside a call", "MB in and out", "MB beside")
+    print("".join(f"{head:>15}" for head in heads))
     for count in (runs for runs in GROWTH if runs <= largest):
-        drawn = samples(count)
-        rates[count], left = 0.0, SECONDS
-        while left > 0.0:
-            start = perf_counter()
-            found = solved(model, drawn, lanes=True)
-            seconds = perf_counter() - start
-            rates[count], left = max(rates[count], count / seconds), left - seconds
-            numbers = found.nbytes / 1e6  # with the samples, which are its coordinates
-            del found  # two at a time would count as memory beside them
+        seconds, numbers = shortest(model, count)
+        rates[count] = (count - LANES) / (seconds - fixed)
         beside = max(beside, most_memory() - before - numbers)
-        print(f"{count:10}{rates[count]:12.0f}{numbers:16.1f}{beside:12.1f}")
+        rest = f"{numbers:15.1f}{beside:15.1f}"
+        print(f"{count:15}{count / seconds:15.0f}{rates[count]:15.0f}{rest}")
     return rates, beside
+
+
+def shortest(model: bs.Problem, count: int) -> tuple[float, float]:
+    """Return the shortest time of a call, and MB of what goes in and comes out."""
+    drawn, best, left, numbers = samples(count), math.inf, SECONDS, 0.0
+    while left > 0.0:
+        start = perf_counter()
+        found = solved(model, drawn, lanes=True)
+        seconds = perf_counter() - start
+        best, left = min(best, seconds), left - seconds
+        numbers = found.nbytes / 1e6  # with the samples, which are its coordinates
+        del found  # two at a time would count as memory beside them
+    return best, numbers
 
 
 def most_memory() -> float:
@@ -159,13 +174,13 @@ def judge(
 ) -> int:
     """Print each target with what was reached; return 1 if one was missed."""
     rate = best["bumpstop, lanes"]
-    large = [rates for count, rates in growth.items() if count >= 10_000]
+    rates = growth.values()
     checks = [
         ("times the numba loop, at least 10", rate / best["numba loop"], 10.0),
         ("times eight lanes of numba, at least 2", rate / best["numba, eight lanes"], 2.0),
         ("1e-11 over the error against fifty digits, at least 1", 1e-11 / errors[0], 1.0),
         ("1e-11 over what lanes differ from single runs, at least 1", 1e-11 / errors[1], 1.0),
-        ("slowest over fastest from 10^4 runs on, at least 0.7", min(large) / max(large), 0.7),
+        ("slowest over fastest, whatever the runs, at least 0.7", min(rates) / max(rates), 0.7),
         ("room over the memory beside numbers, at least 1", ROOM / max(beside, 1.0), 1.0),
     ]
     print()

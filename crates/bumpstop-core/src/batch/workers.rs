@@ -13,6 +13,19 @@ pub type Progress<'a> = &'a mut dyn FnMut(usize) -> bool;
 /// that all end together.
 const CHUNK: usize = 1024;
 
+/// Runs that fill the widest lanes: chunks are whole multiples of it, so that no lane is empty
+/// but at the end.
+const FULL_LANES: usize = 8;
+
+/// Runs of a chunk: a chain where runs follow each other, else a share for every thread.
+fn chunk(parameters: &Parameters<'_>, threads: usize) -> usize {
+    if parameters.is_chained() {
+        return parameters.chain;
+    }
+    let share = parameters.runs.div_ceil(threads.max(1));
+    share.next_multiple_of(FULL_LANES).min(CHUNK)
+}
+
 /// What the threads share.
 struct Shared<'a, 'v> {
     batch: &'a Batch,
@@ -34,11 +47,7 @@ pub(super) fn run(
     if parameters.runs == 0 || batch.width == 0 {
         return Ok(Vec::new());
     }
-    let chunk = if parameters.is_chained() {
-        parameters.chain
-    } else {
-        CHUNK
-    };
+    let chunk = chunk(parameters, threads);
     let threads = threads.clamp(1, parameters.runs.div_ceil(chunk));
     let shared = Shared {
         batch,
