@@ -53,6 +53,19 @@ def test_one_of_two_close_real_exponents_is_slow() -> None:
     assert verdict.excess < 0.1
 
 
+@pytest.mark.parametrize("seed", [9938, 45570, 57302, 93454])
+def test_places_at_rest_far_beside_motions_between_hits(seed: int) -> None:
+    # Exponents some three times as slow as the run: one phase from hit to hit would lose the
+    # digits by which a place at rest exceeds the motion.
+    assert compare(random_several(seed)).excess < 0.1
+
+
+@pytest.mark.parametrize("seed", [21009, 66164, 76087, 91239])
+def test_slow_exponentials_of_fast_motions_between_hits(seed: int) -> None:
+    # Hundreds of hits at such speeds that modes would go ten to a hundred times as far without.
+    assert compare(random_several(seed)).excess < 0.3
+
+
 @pytest.mark.parametrize("seed", [17965, 65853, 68227, 71272, 83050])
 def test_more_slow_exponents_than_sixteen(seed: int) -> None:
     # Runs of about 1e-4 periods on a stiff stop, under constant forces.

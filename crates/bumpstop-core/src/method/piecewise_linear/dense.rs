@@ -30,7 +30,8 @@ pub(crate) fn couple<L: Law>(
     spectrum.groups = groups.len();
     spectrum.combinations = groups.len();
     spectrum.group_damping.clone_from(&groups.damping);
-    Coupled::of_groups(problem, states, groups).solve_into(spectrum, problem.duration)
+    let longest = spectrum.span.longest(problem.duration);
+    Coupled::of_groups(problem, states, groups).solve_into(spectrum, longest)
 }
 
 /// Couples the motions that laws leave to the modes whose local coordinates they hold.
@@ -56,7 +57,8 @@ pub(crate) fn couple_left<L: Law>(
         spectrum.add_combination(problem, k, c, reduced.force[(0, 0)]);
     } else if count > 0 {
         spectrum.groups = count;
-        reduced.solve_into(spectrum, problem.duration)?;
+        let longest = spectrum.span.longest(problem.duration);
+        reduced.solve_into(spectrum, longest)?;
     }
     Ok(())
 }

@@ -26,8 +26,9 @@ impl Spectrum {
         let rests = self.rests.as_flattened_mut();
         self.aside.clear();
         self.is_flight = true;
+        let longest = self.span.longest(problem.duration);
         for (mode, ((omega2, damping), force)) in modes.enumerate() {
-            let motion = SingleMode::new(*omega2, *damping, *force, problem.duration);
+            let motion = SingleMode::new(*omega2, *damping, *force, longest);
             match motion.regime {
                 Regime::Oscillating(_) => rests[mode] = motion.force / motion.omega2,
                 _ if motion.count() == 0 => self.aside.push(mode),

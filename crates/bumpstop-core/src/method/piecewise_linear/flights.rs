@@ -88,7 +88,7 @@ impl<'a, L: Law> Flights<'a, L> {
         let problem = self.run.problem;
         let run = &mut self.run;
         let limit = limit.min(run.meet_loads(time));
-        run.begin::<I>(time, states, q, v)?;
+        let limit = limit.min(run.begin::<I>(time, states, q, v)?);
         let number = run.phases.list.len() - 1;
         let phase = run.phases.list[number];
         let span = (limit - time).min(run.until_overflow(phase, q, v));

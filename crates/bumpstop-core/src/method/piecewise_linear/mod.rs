@@ -43,6 +43,7 @@ mod several;
 mod signal;
 mod single_mode;
 mod singles;
+mod span;
 mod spectrum;
 mod splitting;
 mod stiff;
@@ -76,6 +77,7 @@ use event::Watch;
 use phase::{Phase, Phases};
 use recent::Recent;
 use response::Stretch;
+use span::Span;
 use spectrum::{Secular, Spectrum, Workbench};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -97,6 +99,9 @@ const LARGEST_MOTION: f64 = 1e130;
 
 /// How often the observer is asked, in phases.
 const PHASES_BETWEEN_OBSERVATIONS: usize = 64;
+
+/// So many phases tell by their mean length how often laws are hit.
+const ENOUGH_TO_TELL: usize = 16;
 
 /// Runs a problem whose laws are all piecewise linear.
 ///
@@ -196,7 +201,7 @@ impl<'a, L: Law> Run<'a, L> {
                 observe(observer, time)?;
             }
             let knot = self.meet_loads(time);
-            self.begin::<I>(time, &states, &q, &v)?;
+            let until = knot.min(self.begin::<I>(time, &states, &q, &v)?);
             let phase = self.phases.list[self.phases.list.len() - 1];
             self.scratch.watch.set::<I, L>(
                 problem,
@@ -210,7 +215,7 @@ impl<'a, L: Law> Run<'a, L> {
                 problem,
                 states: &states,
             };
-            let end = problem.duration.min(knot) - time;
+            let end = problem.duration.min(until) - time;
             let path = Path {
                 phases: &self.phases,
                 phase,
@@ -230,13 +235,13 @@ impl<'a, L: Law> Run<'a, L> {
                 if limit < end {
                     return Err(Error::Overflow { time: time + limit });
                 }
-                if knot >= problem.duration {
+                if until >= problem.duration {
                     (self.scratch.displacement, self.scratch.velocity) = (q, v);
                     return Ok(());
                 }
                 self.phases
                     .motion::<I>(phase, limit, &mut self.scratch.work, &mut q, &mut v);
-                (time, at_once) = (knot, 0);
+                (time, at_once) = (until, 0);
                 self.scratch.fired.clear();
                 if !self.contacts.is_empty() {
                     (self.contacts).see_phase(problem, &self.scratch.watch, limit);
@@ -377,8 +382,8 @@ impl<'a, L: Law> Run<'a, L> {
         forcing.next_knot(places)
     }
 
-    /// Starts a phase; a spectrum of the secular equation that fails the phase's check is
-    /// replaced by that of the dense problem.
+    /// Starts a phase, and tells until when it lasts at most; a spectrum of the secular equation
+    /// that fails the phase's check is replaced by that of the dense problem.
     #[inline(always)]
     fn begin<I: Instructions>(
         &mut self,
@@ -386,29 +391,47 @@ impl<'a, L: Law> Run<'a, L> {
         states: &[State],
         q: &[f64],
         v: &[f64],
-    ) -> Result<()> {
-        let spectrum = self.spectrum::<I>(states)?;
+    ) -> Result<f64> {
+        let duration = self.problem.duration;
+        let mut span = Span {
+            stretch: self.stretch,
+            is_parted: false,
+        };
+        let mut spectrum = self.spectrum::<I>(states, span)?;
+        let nearly_slow = self.phases.spectra[spectrum].nearly_slow;
+        if nearly_slow.are_large([q, v], self.time_between_phases(time), duration) {
+            span.is_parted = true;
+            spectrum = self.spectrum::<I>(states, span)?;
+        }
         let work = &mut self.scratch.work;
         let begun = self.phases.begin::<I>(time, spectrum, states, q, v, work);
         match begun {
             Err(Error::Defective { .. }) if self.phases.spectra[spectrum].is_secular => {
-                let replacement = self.dense_spectrum(states)?;
+                let replacement = self.dense_spectrum(states, span)?;
                 let work = &mut self.scratch.work;
                 self.phases
                     .begin::<I>(time, replacement, states, q, v, work)
             }
             begun => begun,
-        }
+        }?;
+        Ok(span.until(time, duration))
+    }
+
+    /// How long phases have been on the average, once there are enough to tell.
+    #[inline(always)]
+    fn time_between_phases(&self, time: f64) -> Option<f64> {
+        let phases = self.phases.list.len();
+        (phases >= ENOUGH_TO_TELL).then(|| time / phases as f64)
     }
 
     /// A spectrum for the given states that does not come from the secular equation. Rare, so
     /// that plain arithmetic, which gives the same bits, does.
     #[cold]
-    fn dense_spectrum(&mut self, states: &[State]) -> Result<usize> {
+    fn dense_spectrum(&mut self, states: &[State], span: Span) -> Result<usize> {
         let room = self.phases.spare_spectrum();
         let bench = &mut self.scratch.bench;
-        let (stretch, secular) = (self.stretch, Secular::Skip);
-        let dense = Spectrum::new::<Plain, L>(self.problem, states, stretch, secular, bench, room)?;
+        let secular = Secular::Skip;
+        let dense = Spectrum::new::<Plain, L>(self.problem, states, span, secular, bench, room)?;
         Ok(self.keep(states, dense))
     }
 
@@ -423,17 +446,16 @@ impl<'a, L: Law> Run<'a, L> {
     /// The number of the spectrum for the given states, the latest one made: one with their
     /// numbers has their matrices, one with their memory their constant forces too.
     #[inline(always)]
-    fn spectrum<I: Instructions>(&mut self, states: &[State]) -> Result<usize> {
+    fn spectrum<I: Instructions>(&mut self, states: &[State], span: Span) -> Result<usize> {
         let problem = self.problem;
-        let stretch = self.stretch;
-        let known = (self.recent).find(problem, states, stretch, &self.phases.spectra);
+        let known = (self.recent).find(problem, states, span, &self.phases.spectra);
         match known {
             Some(known) => Ok(known),
             None => {
                 let room = self.phases.spare_spectrum();
                 let bench = &mut self.scratch.bench;
                 let secular = Secular::Try;
-                let fresh = Spectrum::new::<I, L>(problem, states, stretch, secular, bench, room)?;
+                let fresh = Spectrum::new::<I, L>(problem, states, span, secular, bench, room)?;
                 Ok(self.keep(states, fresh))
             }
         }

@@ -42,14 +42,18 @@ impl Spectrum {
         self.group_damping.extend_from_slice(&coupling.damping);
         self.at_rest.reserve(self.groups);
         let rests = static_groups(coupling, &bench.forces, law.constant, &mut self.at_rest);
-        let reach = problem.duration * problem.duration;
+        let longest = self.span.longest(problem.duration);
+        let reach = longest * longest;
         let is_far = is_far(&self.at_rest, coupling, &bench.forces, law.constant, reach);
         if rests && !is_far && secular == Secular::Try {
             self.is_secular = self.solve_secular::<I>(coupling);
+            // Parted phases are for exponents that the secular equation would leave alone.
+            if self.span.is_parted && self.slowest_of_groups() * longest < dense::SLOW {
+                self.is_secular = false;
+            }
         }
         if !self.is_secular {
-            let duration = problem.duration;
-            dense::set_coupled(self, coupling, &bench.forces, law.constant, duration)?;
+            dense::set_coupled(self, coupling, &bench.forces, law.constant, longest)?;
         }
         Ok(())
     }

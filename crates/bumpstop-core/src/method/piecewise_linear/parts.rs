@@ -7,6 +7,7 @@ use super::held::Left;
 use super::partition::{Component, Groups};
 use super::rows::ComplexBlock;
 use super::several::{Neighbour, Springs};
+use super::span::Span;
 use super::spectrum::{Secular, Spectrum, Workbench, safe_recip};
 use crate::error::Result;
 use crate::law::{Law, State};
@@ -40,12 +41,14 @@ struct Kept {
 }
 
 impl Kept {
-    /// Whether its laws are in states of the same numbers: its exponents and vectors serve.
-    fn has_matrices_of(&self, laws: &[(usize, State)]) -> bool {
+    /// Whether its laws are in states of the same numbers, in phases as long: its exponents and
+    /// vectors serve.
+    fn has_matrices_of(&self, laws: &[(usize, State)], span: Span) -> bool {
         let same = |((a, own), (b, other)): (&(usize, State), &(usize, State))| {
             a == b && own.number == other.number
         };
-        self.laws.len() == laws.len() && self.laws.iter().zip(laws).all(same)
+        let as_long = self.part.span.is_parted == span.is_parted;
+        as_long && self.laws.len() == laws.len() && self.laws.iter().zip(laws).all(same)
     }
 }
 
@@ -64,13 +67,13 @@ impl Parts {
         problem: &Problem<L>,
         modes: &[usize],
         laws: &[(usize, State)],
-        secular: Secular,
+        (span, secular): (Span, Secular),
     ) -> Option<&Spectrum> {
         let forces = |(law, state): (usize, State)| problem.laws[law].piece(state);
         let serves = |kept: &Kept| {
             let both = || kept.laws.iter().zip(laws);
             kept.modes == modes
-                && kept.has_matrices_of(laws)
+                && kept.has_matrices_of(laws, span)
                 && both().all(|(own, other)| own == other || forces(*own) == forces(*other))
                 && (secular == Secular::Try || !kept.part.is_secular)
         };
@@ -80,8 +83,8 @@ impl Parts {
     }
 
     /// A part of several springs that differs in constant forces at most.
-    fn find_alike(&self, laws: &[(usize, State)]) -> Option<&Spectrum> {
-        let alike = |kept: &&Kept| kept.part.is_secular && kept.has_matrices_of(laws);
+    fn find_alike(&self, laws: &[(usize, State)], span: Span) -> Option<&Spectrum> {
+        let alike = |kept: &&Kept| kept.part.is_secular && kept.has_matrices_of(laws, span);
         self.kept.iter().rev().find(alike).map(|kept| &kept.part)
     }
 
@@ -90,12 +93,13 @@ impl Parts {
         &self,
         laws: &[(usize, State)],
         springs: &[Acting],
+        span: Span,
     ) -> Option<(&Spectrum, usize)> {
         for (place, (law, _)) in laws.iter().enumerate() {
             let mut own = (0..springs.len()).filter(|&spring| springs[spring].law == *law);
             let others = [&laws[..place], &laws[place + 1..]].concat();
             if let (Some(spring), None) = (own.next(), own.next())
-                && let Some(part) = self.find_alike(&others)
+                && let Some(part) = self.find_alike(&others, span)
             {
                 return Some((part, spring));
             }
@@ -127,6 +131,7 @@ impl Spectrum {
         bench: &mut Workbench,
     ) -> Result<()> {
         let mut alone = Vec::new();
+        let how = (self.span, secular);
         for component in Component::all(problem, states)? {
             if let Some(left) = Left::of(problem, states, &component.modes) {
                 let groups = Groups::of_modes(&problem.system, &component.modes);
@@ -134,11 +139,11 @@ impl Spectrum {
             }
             let laws: Vec<_> = component.laws.iter().map(|&l| (l, states[l])).collect();
             let modes = &component.modes;
-            if bench.parts.find(problem, modes, &laws, secular).is_none() {
-                let part = Self::of_component(problem, states, &component, secular, bench)?;
+            if bench.parts.find(problem, modes, &laws, how).is_none() {
+                let part = Self::of_component(problem, states, &component, how, bench)?;
                 bench.parts.keep(modes, &laws, part);
             }
-            if let Some(part) = bench.parts.find(problem, modes, &laws, secular) {
+            if let Some(part) = bench.parts.find(problem, modes, &laws, how) {
                 match part.groups {
                     // Combinations that are alone have numbers behind all groups.
                     0 => alone.push(part.clone()),
@@ -157,10 +162,13 @@ impl Spectrum {
         problem: &Problem<L>,
         states: &[State],
         component: &Component,
-        secular: Secular,
+        (span, secular): (Span, Secular),
         bench: &mut Workbench,
     ) -> Result<Self> {
-        let mut part = Self::default();
+        let mut part = Self {
+            span,
+            ..Self::default()
+        };
         let groups = Groups::of(problem, states, component);
         if !problem.system.is_coupled() {
             let springs = Acting::springs(problem, states, &component.laws);
@@ -182,11 +190,11 @@ impl Spectrum {
                     if let [first, _] = laws[..]
                         && is_single(first.0)
                     {
-                        Self::prepare_one(problem, states, first, secular, bench)?;
+                        Self::prepare_one(problem, states, first, (span, secular), bench)?;
                     }
-                    let alike = bench.parts.find_alike(&laws);
-                    let lesser = bench.parts.find_lesser(&laws, springs);
-                    let part = Self::of_springs(problem, springs, &groups, alike, lesser);
+                    let alike = bench.parts.find_alike(&laws, span);
+                    let lesser = bench.parts.find_lesser(&laws, springs, span);
+                    let part = Self::of_springs(problem, springs, &groups, span, alike, lesser);
                     if let Some(part) = part {
                         return Ok(part);
                     }
@@ -204,13 +212,13 @@ impl Spectrum {
         problem: &Problem<L>,
         states: &[State],
         law: (usize, State),
-        secular: Secular,
+        how: (Span, Secular),
         bench: &mut Workbench,
     ) -> Result<()> {
         let alone = Component::of_law(problem, states, law.0);
         let modes = &alone.modes;
-        if bench.parts.find(problem, modes, &[law], secular).is_none() {
-            let part = Self::of_component(problem, states, &alone, secular, bench)?;
+        if bench.parts.find(problem, modes, &[law], how).is_none() {
+            let part = Self::of_component(problem, states, &alone, how, bench)?;
             bench.parts.keep(modes, &[law], part);
         }
         Ok(())
@@ -223,6 +231,7 @@ impl Spectrum {
         problem: &Problem<L>,
         laws: &[Acting],
         groups: &Groups,
+        span: Span,
         alike: Option<&Self>,
         lesser: Option<(&Self, usize)>,
     ) -> Option<Self> {
@@ -243,8 +252,9 @@ impl Spectrum {
             laws.iter().map(|law| law.stiffness).collect(),
             laws.iter().map(|law| law.damping).collect(),
         );
-        let slow = dense::SLOW / problem.duration;
+        let slow = dense::SLOW / span.longest(problem.duration);
         let mut part = Self {
+            span,
             members: groups.members.clone(),
             groups: groups.len(),
             combinations: groups.len(),

@@ -3,7 +3,7 @@
 //! Phases keep their spectra for as long as the run is asked for anything; what is bounded here is
 //! how many are looked through at a switch.
 
-use super::response::Stretch;
+use super::span::Span;
 use super::spectrum::Spectrum;
 use crate::law::{Law, State};
 use crate::problem::Problem;
@@ -34,18 +34,18 @@ impl Recent {
         }
     }
 
-    /// The number of the spectrum that serves the given states in such stretches.
+    /// The number of the spectrum that serves the given states in such phases.
     #[inline(always)]
     pub(crate) fn find<L: Law>(
         &mut self,
         problem: &Problem<L>,
         states: &[State],
-        stretch: Stretch,
+        span: Span,
         spectra: &[Box<Spectrum>],
     ) -> Option<usize> {
         let digest = digest(states);
         let serves = |(own, number): &(u64, usize)| {
-            *own == digest && spectra[*number].serves(problem, states, stretch)
+            *own == digest && spectra[*number].serves(problem, states, span)
         };
         let found = self.kept.iter().rposition(serves)?;
         let latest = self.kept.len() - 1;

@@ -43,9 +43,10 @@ impl Spectrum {
         let force = modal_force + phi * law.constant;
         let stiffness = coupling.omega2[0] + law.stiffness * phi * phi;
         let damping = modal + added;
+        let longest = self.span.longest(problem.duration);
         self.singles.push(Single {
             subject: Subject::Combination(0),
-            motion: SingleMode::new(stiffness, damping, force, problem.duration),
+            motion: SingleMode::new(stiffness, damping, force, longest),
             at: 0,
             modal_share: if damping > 0.0 { modal / damping } else { 0.0 },
             law: Some(law.law),
@@ -61,9 +62,10 @@ impl Spectrum {
         damping: f64,
         force: f64,
     ) {
+        let longest = self.span.longest(problem.duration);
         self.singles.push(Single {
             subject: Subject::Combination(0),
-            motion: SingleMode::new(stiffness, damping, force, problem.duration),
+            motion: SingleMode::new(stiffness, damping, force, longest),
             at: 0,
             modal_share: 1.0,
             law: None,
@@ -103,6 +105,7 @@ impl Spectrum {
             held.modes.iter().for_each(|&mode| weights[mode] = 1.0);
         }
         self.singles.reserve_exact(omega2.len() - whole);
+        let longest = self.span.longest(problem.duration);
         for mode in 0..omega2.len() {
             if weights[mode].abs() == 1.0 {
                 continue;
@@ -110,7 +113,7 @@ impl Spectrum {
             let force = forces[mode] - pushed[mode];
             self.singles.push(Single {
                 subject: Subject::Mode(mode),
-                motion: SingleMode::new(omega2[mode], damping[mode], force, problem.duration),
+                motion: SingleMode::new(omega2[mode], damping[mode], force, longest),
                 at: 0,
                 modal_share: 1.0,
                 law: None,

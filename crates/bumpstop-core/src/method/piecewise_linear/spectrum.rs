@@ -13,10 +13,11 @@ use super::held::{Held, Reaction};
 use super::impedance::Impedance;
 use super::parts::Parts;
 use super::phase::Workspace;
-use super::response::{Drives, Response, Stretch, Times};
+use super::response::{Drives, Response, Times};
 use super::rows::{ComplexBlock, RealBlock, Rows, set_entry};
 use super::secular::Coupling;
 use super::singles::{Single, Subject};
+use super::span::{NearlySlow, Span};
 use super::view::View;
 use crate::error::Result;
 use crate::law::{Law, State};
@@ -36,8 +37,10 @@ pub(crate) struct Member {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Spectrum {
     pub states: Vec<State>,
-    /// The stretches between knots of tables for which it follows loads.
-    pub stretch: Stretch,
+    /// The phases that it is made for.
+    pub span: Span,
+    /// What of it would be slow beside parted phases.
+    pub(super) nearly_slow: NearlySlow,
     /// Exponents, in blocks; the first `coupled_width` belong to the coupled groups. One of each
     /// conjugate pair, or a real one; padding has exponent zero.
     pub lambda: Vec<ComplexBlock>,
@@ -126,14 +129,14 @@ impl Spectrum {
     pub(crate) fn new<I: Instructions, L: Law>(
         problem: &Problem<L>,
         states: &[State],
-        stretch: Stretch,
+        span: Span,
         secular: Secular,
         bench: &mut Workbench,
         room: Box<Self>,
     ) -> Result<Box<Self>> {
         let mut spectrum = room.cleared();
         spectrum.states.extend_from_slice(states);
-        spectrum.stretch = stretch;
+        spectrum.span = span;
         match Acts::of(problem, states) {
             _ if problem.system.is_coupled() => {
                 spectrum.couple_components(problem, states, secular, bench)?;
@@ -145,6 +148,7 @@ impl Spectrum {
         spectrum.add_singles(problem, bench);
         spectrum.lay_out_exponents(problem);
         spectrum.measure_exponents::<I>();
+        spectrum.nearly_slow = NearlySlow::of(&spectrum, problem.duration);
         if problem.forcing.varies() {
             spectrum.respond(problem, bench);
         }
@@ -181,10 +185,10 @@ impl Spectrum {
         &self,
         problem: &Problem<L>,
         states: &[State],
-        stretch: Stretch,
+        span: Span,
     ) -> bool {
         let both = || self.states.iter().zip(states);
-        self.stretch == stretch
+        self.span == span
             && both().all(|(own, other)| own.number == other.number)
             && both().zip(&problem.laws).all(|((own, other), law)| {
                 own.memory == other.memory || law.piece(*own) == law.piece(*other)
@@ -225,8 +229,8 @@ impl Spectrum {
         let forcing = &problem.forcing;
         let drives = Drives::of(problem, &self.states);
         let times = Times {
-            duration: problem.duration,
-            stretch: self.stretch.longest(problem.duration),
+            duration: self.span.longest(problem.duration),
+            stretch: self.span.stretch.longest(problem.duration),
         };
         let (response, mut clusters) =
             Response::new(forcing, drives, self, impedance.as_ref(), times);
