@@ -209,12 +209,12 @@ def test_flights_are_what_steps_make_of_them(name: str) -> None:
     assert flown.energy_residual < 1e-10
 
 
-def test_flights_are_taken_on_request() -> None:
+def test_flights_are_taken_unless_they_are_not_wanted() -> None:
     law = Hole(3e-3, stiffness=1e5).stop()
-    flown, stepped = thrown(law, 1.0), thrown(law, 1.0, exact_flights=None)
+    flown, stepped = thrown(law, 1.0, exact_flights=None), thrown(law, 1.0, exact_flights=False)
     assert (flown.steps, flown.event_count) == (1, 0)
     assert stepped.steps > 20
-    assert flown.options["exact_flights"] is True
+    assert stepped.options["exact_flights"] is False
 
 
 def test_what_is_no_choice_is_refused() -> None:

@@ -118,7 +118,7 @@ def simulate(
     exact_flights
         Whether a method with tolerances leaves flights to the exact one, where some law keeps that
         from taking the whole problem: stretches of time in which no contact pushes and no smooth
-        law acts. Experimental, and false where left out.
+        law acts. True where left out.
     progress
         Called with the fraction done, between 0 and 1, about ten times a second.
     unknown
@@ -207,7 +207,7 @@ def simulate(
             tolerances,
             parameters,
             progress,
-            bool(exact_flights),
+            exact_flights is not False,
         )
     except _core.CoreError as error:
         _blame_scale(chosen, problem, error)

@@ -87,6 +87,16 @@ def test_everything_that_can_be_written(load: Load) -> None:
     assert reference.source == "nowhere"
 
 
+@pytest.mark.parametrize(("written", "flies"), [("", None), ("false", False), ("true", True)])
+def test_a_case_says_whether_methods_fly(written: str, flies: bool | None, load: Load) -> None:
+    key = f"exact_flights = {written}\n" if written else ""
+    assert load(f'{BALL}method = "dop853"\n{key}').method_options.get("exact_flights") is flies
+
+
+def test_other_words_for_flights_are_refused(refused: Callable[[str], str]) -> None:
+    assert "run.exact_flights" in refused(f'{BALL}exact_flights = "no"\n')
+
+
 @pytest.mark.parametrize("key", ["tolerance", "relative_tolerance"])
 def test_a_relative_tolerance_has_a_short_and_a_full_name(key: str, load: Load) -> None:
     case = load(BALL + REFERENCE + f"times = [0.5]\nvalues = [1]\n{key} = 0.008")

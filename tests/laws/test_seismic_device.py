@@ -60,6 +60,15 @@ def test_a_shaken_mass_agrees_with_tiny_steps() -> None:
         assert response.energy_terms([0.6])["dissipated_stops"][0] > 0.1
 
 
+@pytest.mark.parametrize("rtol", [1e-6, 1e-10])
+def test_a_sign_that_a_moving_support_changes_is_changed_once(rtol: float) -> None:
+    """The elongation passes zero at a speed of which its own rounding knows nothing."""
+    problem = bs.load_case("cases/sdnd120a/case.toml").problems["base"]
+    events = bs.simulate(problem, rtol=rtol).event_table()
+    assert events["after"] == ["long"]
+    assert events["time"][0] == pytest.approx(0.5000013, abs=1e-7)
+
+
 def test_force_and_motion_are_those_of_scipy() -> None:
     """Stretch by stretch between the instants without elongation, where the damper has its cusp."""
     law = device(rest_speed=0.05, exponent=0.5)

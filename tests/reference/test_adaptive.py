@@ -272,8 +272,10 @@ def test_stiff_modes_at_rest_cost_the_exponential_pair_nothing() -> None:
     wall = bs.HertzStop("wall", node="P", normal=(1, 0, 0), gap=0.005, stiffness=1e6, exponent=2.0)
     state = bs.ModalState(velocity=[-1.0, 0.0])
     problem = bs.Problem(basis, laws=[wall], initial=state, duration=0.5)
+    # Steps from end to end, as flights would spare the explicit pair most of them.
     exponential, explicit = (
-        bs.simulate(problem, method, rtol=1e-6) for method in ("exprk43", "rk54")
+        bs.simulate(problem, method, rtol=1e-6, exact_flights=False)
+        for method in ("exprk43", "rk54")
     )
     assert exponential.steps < explicit.steps / 50
     assert error(exponential, explicit) < 1e-4

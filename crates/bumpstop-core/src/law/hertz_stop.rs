@@ -76,9 +76,14 @@ impl HertzStop {
         (-self.obstacle.distance(position)).max(T::of(0.0))
     }
 
-    /// The force without damping.
+    /// The force without damping. Where it is linear it goes on beyond the surface: steps that
+    /// find there that the contact opens see no kink.
     fn elastic<T: Number>(&self, position: &Local<T>) -> T {
-        T::of(self.stiffness) * self.depth(position).power(self.exponent)
+        let stiffness = T::of(self.stiffness);
+        if self.exponent == 1.0 {
+            return -stiffness * self.obstacle.distance(position);
+        }
+        stiffness * self.depth(position).power(self.exponent)
     }
 
     /// `1 + lambda e'`, which the elastic force is multiplied by.

@@ -30,6 +30,7 @@ class MethodOptions(TypedDict, total=False):
     points_per_period: float
     rtol: float
     atol: float
+    exact_flights: bool
 
 
 class Method(NamedTuple):

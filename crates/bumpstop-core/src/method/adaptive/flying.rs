@@ -36,7 +36,9 @@ pub(super) fn flights<L: Law>(problem: &Problem<L>, method: Adaptive) -> Option<
     let Tolerances { exact_flights, .. } = tolerances;
     let is_smooth = problem.laws.iter().any(|law| !law.is_piecewise_linear());
     let is_fit = check_steady("", &problem.system).is_ok() && scale::check(problem).is_ok();
-    (exact_flights && is_smooth && is_fit).then(|| Flights::new(problem))
+    // What pushes in its first state, which of contacts is the open one, does in all of them.
+    let is_free = (problem.laws.iter()).all(|law| lets_fly(law, State::FIRST));
+    (exact_flights && is_smooth && is_fit && is_free).then(|| Flights::new(problem))
 }
 
 /// The method with a finer tolerance: what flights save is spent on contacts, in which all of the

@@ -190,6 +190,12 @@ impl Watch {
             track.sizes[0][0] += moved.size();
             track.sizes[1][0] += moved.derivative().size() / step.h;
         }
+        // The instant is known to rounding, too: a position is known no better than how far the
+        // motion goes in that.
+        let [positions, velocities] = &mut track.sizes;
+        for (position, velocity) in positions.iter_mut().zip(velocities) {
+            *position += step.time * *velocity;
+        }
         track
     }
 }

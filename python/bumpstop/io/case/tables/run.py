@@ -57,6 +57,11 @@ class RunTable(Table):
         default=None,
         description="Absolute tolerance of the Runge-Kutta pairs, in m and m/s of the modal motion",
     )
+    exact_flights: Switch | None = Field(
+        default=None,
+        description="Whether methods with a tolerance leave flights between contacts to the exact "
+        "one, true where left out; the others do not use it",
+    )
     sample: PositiveTime | None = Field(
         default=None,
         description="Interval of the tabulated results, in s; it does not affect the solution",
