@@ -19,6 +19,28 @@ def case() -> bs.Case:
 
 
 @pytest.mark.filterwarnings("ignore:stop 'wall'. its gap:bumpstop.ModellingWarning")
+@pytest.mark.parametrize("method", ["symplectic_euler", "central_difference"])
+@pytest.mark.parametrize("variant", ["coming", "shaking"])
+def test_fixed_steps_tend_to_it(case: bs.Case, variant: str, method: str) -> None:
+    """Motion and ledger, with the work of the obstacle: a tenth of the step, a tenth or less."""
+    problem = case.problems[variant]
+    exact = bs.simulate(problem, "exact")
+    times = np.linspace(0.0, problem.duration, 201)
+    expected = exact.history.motion(times, 0)
+    work = exact.energy_terms([problem.duration])["obstacle_work"][0]
+    errors = []
+    for steps in (1_000, 10_000):
+        found = bs.simulate(problem, method, dt=problem.duration / steps)
+        apart = np.abs(found.history.motion(times, 0) - expected).max() / np.abs(expected).max()
+        lack = found.energy_terms([problem.duration])["obstacle_work"][0] / work - 1.0
+        assert found.event_count == exact.event_count
+        errors.append([apart, abs(lack), found.energy_residual])
+    assert errors[0][0] < 2e-4
+    assert errors[0][1] < 1e-3
+    assert (np.array(errors[1]) < 0.11 * np.array(errors[0])).all()
+
+
+@pytest.mark.filterwarnings("ignore:stop 'wall'. its gap:bumpstop.ModellingWarning")
 @pytest.mark.parametrize(("variant", "number"), [("coming", 8), ("shaking", 6)])
 def test_references(case: bs.Case, variant: str, number: int) -> None:
     response = bs.simulate(case.problems[variant], "exact")

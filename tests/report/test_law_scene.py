@@ -75,7 +75,7 @@ def test_of_a_tube_outside_the_near_side_is_drawn(beside: bs.Response) -> None:
 
 
 def test_a_mover_between_moving_supports_is_drawn_where_it_is() -> None:
-    response = variant("sdnd120a", "base")
+    response = variant("sdnd120a", "converged")
     drawing = outline(response.problem.basis, law_nodes(response.problem))
     scene = motion_scene(response, ("M2", "dx"), drawing)
     times = np.linspace(0.0, scene["duration"], scene["frames"] + 1)

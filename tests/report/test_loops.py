@@ -21,7 +21,7 @@ def path(figure: figures.Figure) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, 
 def device() -> bs.Response:
     """The seismic device of SDND120A, between supports that move."""
     case = bs.load_case(CASES / "sdnd120a" / "case.toml")
-    return bs.simulate(case.problems["base"])
+    return bs.simulate(case.problems["converged"])
 
 
 @pytest.fixture(scope="module")

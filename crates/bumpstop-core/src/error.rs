@@ -180,12 +180,6 @@ pub enum Error {
         /// The law.
         law: usize,
     },
-    /// A method that takes obstacles where they are was given one that moves.
-    #[error("the {method} method does not take obstacles that move; the exact method does")]
-    MovingObstacles {
-        /// The method.
-        method: &'static str,
-    },
     /// A fixed step would be unstable.
     #[error("a step of {dt:e} s is above the stability limit of {method}, {limit:e} s")]
     Unstable {

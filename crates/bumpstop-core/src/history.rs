@@ -4,7 +4,7 @@ use crate::dynamics::Moment;
 use crate::energy::{self, Ledger};
 use crate::error::{Error, Result, check_length};
 use crate::impacts::{Impact, Sample};
-use crate::law::{Law, Local, State, project};
+use crate::law::{Law, Local, State};
 use crate::method::fixed_step::{StepRecord, sampled_states, step_ledgers};
 use crate::method::piecewise_linear::PhaseRecord;
 use crate::method::polynomial_steps::PolynomialRecord;
@@ -154,7 +154,12 @@ impl<L: Law> History<L> {
                 for &time in times {
                     record.sample(time, &mut q, &mut v);
                     let known = record.states_at(time);
-                    see(time, &q, &v, &sampled_states(&self.problem, known, &q, &v));
+                    see(
+                        time,
+                        &q,
+                        &v,
+                        &sampled_states(&self.problem, known, time, &q, &v),
+                    );
                 }
             }
         }
@@ -376,7 +381,7 @@ impl<L: Law> History<L> {
         let which = &self.problem.laws[law];
         let mut samples = Vec::with_capacity(times.len());
         self.visit(times, |time, q, v, states| {
-            let (position, rate) = (project(which, q), project(which, v));
+            let [position, rate] = self.problem.local(law, time, q, v);
             let (distance, speed) = which.distance(&position, &rate);
             let force = which.force(states[law], &position, &rate);
             samples.push(Sample {

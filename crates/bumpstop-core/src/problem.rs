@@ -83,12 +83,10 @@ impl<L: Law> Problem<L> {
         &self,
         law: usize,
         time: f64,
-        mut local: [Local<f64>; 2],
+        local: [Local<f64>; 2],
     ) -> [Local<f64>; 2] {
         if self.forcing.varies() {
-            let [moved, rate, ..] = self.forcing.motion(law, time);
-            local[0][0] -= moved;
-            local[1][0] -= rate;
+            return self.forcing.seen_from_obstacle(law, time, local);
         }
         local
     }

@@ -2,6 +2,7 @@
 
 use super::{Channel, Forcing, Harmonic, History, Table};
 use crate::error::{Error, Result, check_finite};
+use crate::law::Local;
 use crate::number::Complex;
 
 impl Forcing {
@@ -59,6 +60,19 @@ impl Forcing {
         let by_channels = self.channels.iter().filter_map(|channel| channel.moves);
         let by_harmonics = self.harmonics.iter().flat_map(|harmonic| &harmonic.motions);
         by_channels.chain(by_harmonics.map(|(law, _)| *law))
+    }
+
+    /// A law's local position and velocity at a time less those of its obstacle.
+    pub(crate) fn seen_from_obstacle(
+        &self,
+        law: usize,
+        time: f64,
+        mut local: [Local<f64>; 2],
+    ) -> [Local<f64>; 2] {
+        let [moved, rate, ..] = self.motion(law, time);
+        local[0][0] -= moved;
+        local[1][0] -= rate;
+        local
     }
 
     /// How far the obstacle of a law has moved at a time, in m, and the first three derivatives just

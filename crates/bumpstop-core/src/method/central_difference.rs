@@ -9,8 +9,8 @@
 
 use super::fixed_step::{
     Any, ChangingLoads, Count, Follow, March, Modal, Scheme, Setting, Step, StepRecord,
-    VelocityRule, among_many, check_forces, check_growth, check_step, check_still, check_uncoupled,
-    coupling, highest_frequency, in_lanes, law_force, laws_damping, modal, pushed, run,
+    VelocityRule, among_many, check_forces, check_growth, check_step, check_uncoupled, coupling,
+    highest_frequency, in_lanes, law_force, laws_damping, modal, pushed, run,
 };
 use super::{Observer, check_memories, check_not_stepped};
 use crate::error::Result;
@@ -45,7 +45,6 @@ pub fn simulate<L: Law>(
     check_forces(NAME, &problem.laws)?;
     check_memories(NAME, &problem.laws)?;
     check_not_stepped(NAME, &problem.laws)?;
-    check_still(NAME, &problem.forcing)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = CentralDifference {
         record: &mut record,
@@ -334,9 +333,8 @@ impl<I: Instructions, B: Count> Contact<I, B> {
 fn displacement_before<L: Law>(setting: &Setting<'_, L>, dt: f64) -> Vec<f64> {
     let (q, v) = (setting.displacement, setting.velocity);
     let [mut forces, _] = setting.forcing.around(0.0);
-    for &law in &setting.laws {
-        let (position, rate) = setting.local_start(law);
-        let force = law.force(setting.first_state(law), &position, &rate);
+    for (number, law) in setting.laws.iter().enumerate() {
+        let force = setting.first_force(number);
         for (row, f) in law.rows().iter().zip(force) {
             for (total, r) in forces.iter_mut().zip(row) {
                 *total += r * f;

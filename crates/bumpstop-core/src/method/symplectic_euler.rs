@@ -7,8 +7,8 @@
 
 use super::fixed_step::{
     Any, ChangingLoads, Count, Follow, March, Modal, Scheme, Setting, Step, StepRecord,
-    VelocityRule, among_many, check_forces, check_growth, check_step, check_still, check_uncoupled,
-    coupling, highest_frequency, in_lanes, law_force, laws_damping, modal, pushed, run,
+    VelocityRule, among_many, check_forces, check_growth, check_step, check_uncoupled, coupling,
+    highest_frequency, in_lanes, law_force, laws_damping, modal, pushed, run,
 };
 use super::{Observer, check_memories};
 use crate::error::Result;
@@ -43,7 +43,6 @@ pub fn simulate<L: Law>(
     check_uncoupled(NAME, &problem.system)?;
     check_forces(NAME, &problem.laws)?;
     check_memories(NAME, &problem.laws)?;
-    check_still(NAME, &problem.forcing)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = SymplecticEuler {
         record: &mut record,

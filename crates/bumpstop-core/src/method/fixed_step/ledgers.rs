@@ -3,7 +3,7 @@
 use super::StepRecord;
 use crate::energy::{self, Growth, Ledger};
 use crate::error::{Error, Result};
-use crate::law::{Law, State, project};
+use crate::law::{Law, Local, State};
 use crate::problem::Problem;
 
 /// Steps between two looks at the energy of the structure.
@@ -83,13 +83,15 @@ pub(crate) fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) ->
             let half = 0.5 * record.dt;
             changing_work += half * (previous.load + powers.load);
             ledger.load_work += changing_work;
+            ledger.obstacle_work =
+                last.obstacle_work + half * (previous.obstacles + powers.obstacles);
             ledger.modal_dissipation =
                 last.modal_dissipation + half * (previous.modal + powers.modal);
             for (i, total) in ledger.law_dissipated.iter_mut().enumerate() {
                 let lost = problem.laws[i].switch_loss(
                     previous.states[i],
                     powers.states[i],
-                    &project(&problem.laws[i], q),
+                    &powers.positions[i],
                 );
                 let power = previous.laws[i] + powers.laws[i];
                 *total = last.law_dissipated[i] + half * power + lost;
@@ -106,9 +108,13 @@ struct Powers {
     modal: f64,
     /// Of the loads that change in time.
     load: f64,
+    /// Of the obstacles that move.
+    obstacles: f64,
     laws: Vec<f64>,
     stored: Vec<f64>,
     states: Vec<State>,
+    /// Of the laws, from their obstacles.
+    positions: Vec<Local<f64>>,
 }
 
 impl Powers {
@@ -119,22 +125,32 @@ impl Powers {
         q: &[f64],
         v: &[f64],
     ) -> Self {
-        let states = sampled_states(problem, known, q, v);
-        let laws = || problem.laws.iter().zip(&states);
+        let states = sampled_states(problem, known, time, q, v);
+        let local = (0..problem.laws.len()).map(|law| problem.local(law, time, q, v));
+        let local: Vec<[Local<f64>; 2]> = local.collect();
+        let laws = || problem.laws.iter().zip(&states).zip(&local);
+        let mut obstacles = 0.0;
+        if problem.forcing.moved().next().is_some() {
+            for (number, ((law, state), [position, velocity])) in laws().enumerate() {
+                let [_, rate, ..] = problem.forcing.motion(number, time);
+                obstacles += law.force(*state, position, velocity)[0] * rate;
+            }
+        }
         Self {
             modal: (problem.system.damping().iter().zip(v))
                 .map(|(c, v)| c * v * v)
                 .sum(),
             load: problem.forcing.changing_power(time, v),
             laws: laws()
-                .map(|(law, state)| {
-                    let (position, velocity) = (project(law, q), project(law, v));
-                    law.dissipated_power(*state, &position, &velocity)
+                .map(|((law, state), [position, velocity])| {
+                    law.dissipated_power(*state, position, velocity)
                 })
                 .collect(),
             stored: laws()
-                .map(|(law, state)| law.stored(*state, &project(law, q)))
+                .map(|((law, state), [position, _])| law.stored(*state, position))
                 .collect(),
+            obstacles,
+            positions: local.iter().map(|[position, _]| *position).collect(),
             states,
         }
     }
@@ -144,16 +160,18 @@ impl Powers {
 pub(crate) fn sampled_states<L: Law>(
     problem: &Problem<L>,
     known: impl Iterator<Item = State>,
+    time: f64,
     q: &[f64],
     v: &[f64],
 ) -> Vec<State> {
-    (problem.laws.iter().zip(known))
-        .map(|(law, known)| {
+    (problem.laws.iter().zip(known).enumerate())
+        .map(|(number, (law, known))| {
             // What is asked once a step has answered already.
             if law.is_stepped() {
                 return known;
             }
-            law.sampled_state(known, &project(law, q), &project(law, v))
+            let [position, velocity] = problem.local(number, time, q, v);
+            law.sampled_state(known, &position, &velocity)
         })
         .collect()
 }

@@ -5,7 +5,8 @@ use super::loads::ChangingLoads;
 use super::record::StepRecord;
 use super::setting::Setting;
 use crate::error::Result;
-use crate::law::{COORDINATES, Law, Local};
+use crate::forcing::Forcing;
+use crate::law::{COORDINATES, Law, Local, State};
 use crate::method::Observer;
 use crate::number::{Block, Instructions, LANES, Lanes, Number, blocks, padded};
 
@@ -56,6 +57,8 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
     let mut changing = ChangingLoads::new(setting.forcing, record.dt, &same);
     let mut load = blocks(setting.forcing.forces());
     let changes = setting.forcing.varies();
+    let moves = setting.moves();
+    let (dt, mut step) = (record.dt, 0);
     let mut followed = Vec::new();
     for law in &setting.laws {
         followed.push(scheme.followed(*law, setting));
@@ -71,8 +74,15 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
                 load.copy_from_slice(changing.next());
             }
             let mut forces = rows.forces.iter_mut();
-            for ((law, state), local) in setting.laws.iter().zip(&mut seen).zip(&followed) {
-                let force = law_force(*law, state, local.position(), local.velocity());
+            let laws = setting.laws.iter().zip(&mut seen).zip(&followed);
+            for (number, ((law, state), local)) in laws.enumerate() {
+                let force = if moves {
+                    let time = f64::from(step) * dt;
+                    let local = [*local.position(), *local.velocity()];
+                    moved_force((*law, number), state, setting.forcing, time, local)
+                } else {
+                    law_force(*law, state, local.position(), local.velocity())
+                };
                 for (to, force) in forces.by_ref().take(law.rows().len()).zip(force) {
                     *to = force;
                 }
@@ -87,6 +97,7 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
                     *memory = state.memory;
                 }
             }
+            step += 1;
             rows.step(&mut scheme, &load);
             let mut read = rows.read.iter();
             for (law, local) in setting.laws.iter().zip(&mut followed) {
@@ -100,6 +111,19 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
         }
     }
     Ok(())
+}
+
+/// The force of a law whose obstacle may move.
+#[cold]
+fn moved_force<P: Law>(
+    (law, number): (&P, usize),
+    state: &mut State,
+    forcing: &Forcing,
+    time: f64,
+    local: [Local<f64>; 2],
+) -> Local<f64> {
+    let [position, velocity] = forcing.seen_from_obstacle(number, time, local);
+    law_force(law, state, &position, &velocity)
 }
 
 /// The rows of all laws, one under another, with zeros to whole lanes of them.

@@ -20,7 +20,6 @@ pub(crate) use march::{Any, Count, March, Modal, in_lanes, modal, run};
 pub(crate) use setting::Setting;
 
 use crate::error::{Error, Result};
-use crate::forcing::Forcing;
 use crate::law::{COORDINATES, Law, Local};
 use crate::system::ModalSystem;
 
@@ -45,14 +44,6 @@ pub(crate) fn check_uncoupled(method: &'static str, system: &ModalSystem) -> Res
 pub(crate) fn check_forces<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
     if laws.iter().any(|law| law.restitution().is_some()) {
         return Err(Error::RigidStops { method });
-    }
-    Ok(())
-}
-
-/// Refuses obstacles that move: the schemes take them where they are.
-pub(crate) fn check_still(method: &'static str, forcing: &Forcing) -> Result<()> {
-    if forcing.moved().next().is_some() {
-        return Err(Error::MovingObstacles { method });
     }
     Ok(())
 }

@@ -34,9 +34,27 @@ impl<'a, P: Law> Setting<'a, P> {
         (position, project(law, self.velocity))
     }
 
+    /// Whether some obstacles move.
+    pub(super) fn moves(&self) -> bool {
+        self.forcing.moved().next().is_some()
+    }
+
+    /// The same of a law by its number, from its obstacle.
+    fn start_from_obstacle(&self, number: usize) -> [Local<f64>; 2] {
+        let (position, velocity) = self.local_start(self.laws[number]);
+        (self.forcing).seen_from_obstacle(number, 0.0, [position, velocity])
+    }
+
+    /// The force of a law at t = 0.
+    pub(crate) fn first_force(&self, number: usize) -> Local<f64> {
+        let [position, velocity] = self.start_from_obstacle(number);
+        self.laws[number].force(self.first_state(number), &position, &velocity)
+    }
+
     /// The state of a law at t = 0.
-    pub(crate) fn first_state(&self, law: &P) -> State {
-        let (position, velocity) = self.local_start(law);
+    fn first_state(&self, number: usize) -> State {
+        let law = self.laws[number];
+        let [position, velocity] = self.start_from_obstacle(number);
         let motion = LocalMotion::of(position, velocity);
         let before = law.initial_state(&motion, |_| motion);
         law.sampled_state(before, &position, &velocity)
@@ -44,7 +62,7 @@ impl<'a, P: Law> Setting<'a, P> {
 
     /// The states of all laws at t = 0.
     pub(super) fn first_states(&self) -> Vec<State> {
-        (self.laws.iter())
+        (0..self.laws.len())
             .map(|law| self.first_state(law))
             .collect()
     }
