@@ -16,6 +16,7 @@ import bumpstop as bs
 from bumpstop.cli import main
 from bumpstop.errors import ComputationError
 from bumpstop.io.case import load_case
+from bumpstop.post.results.contacts import Statistics
 
 SDNL32 = Path(__file__).parents[2] / "cases" / "sdnl32" / "case.toml"
 RUN = ["run", str(SDNL32), "--method", "symplectic_euler"]
@@ -130,9 +131,11 @@ def test_json(call: Output) -> None:
             "energy_residual",
             "solve_seconds",
             "references",
+            "results",
             "remarks",
             "passed",
         }
+        assert variant["results"] == []
         assert variant["remarks"] == ["1 rigid mode: rotation about z through A"]
         assert (variant["method"], variant["passed"]) == ("symplectic_euler", True)
         assert (variant["steps"], variant["events"], variant["impacts"]) == (2000, 1, 1)
@@ -630,3 +633,50 @@ def test_an_export_that_fails_leaves_nothing(call: Output, tmp_path: Path) -> No
     assert status == 2
     assert "run.export" in error
     assert not (tmp_path / "out").exists()
+
+
+def with_results(folder: Path, end: float) -> Path:
+    """Return SDNL32 with statistics of its stop between two instants."""
+    file = folder / "counted" / "case.toml"
+    file.parent.mkdir()
+    asked = f'\n[results.rattle]\ntype = "contact_statistics"\nstop = "spring"\nend = {end}\n'
+    file.write_text(SDNL32.read_text() + asked + "blocks = 1\n")
+    return file
+
+
+def test_results_that_a_case_asks_for_are_told(call: Output, tmp_path: Path) -> None:
+    case = with_results(tmp_path, 0.02)
+    status, output, error = call("run", str(case), "--json")
+    assert (status, error) == (0, "")
+    for variant in json.loads(output)["variants"]:
+        (told,) = variant["results"]
+        assert (told["name"], told["missing"]) == ("rattle", None)
+        numbers = {each["quantity"]: each for each in told["numbers"]}
+        assert numbers["number of impacts"]["value"] == 1
+        assert numbers["time loaded"]["units"] == "s"
+        assert all(
+            each.keys() == {"quantity", "units", "value", "uncertainty"}
+            for each in numbers.values()
+        )
+    status, output, _ = call("run", str(case))
+    lines = [line.split() for line in output.splitlines()]
+    assert status == 0
+    assert lines.count(["rattle"]) == 2
+    assert lines.count(["number", "of", "impacts", "1"]) == 2
+
+
+def test_a_result_that_cannot_be_read_is_told_without_a_report(
+    call: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object) -> None:
+        raise ComputationError("no such luck")
+
+    monkeypatch.setattr(Statistics, "read", broken)
+    case = with_results(tmp_path, 0.02)
+    status, output, error = call("run", str(case), "--json")
+    assert status == 1
+    assert error == f"error: {case}: results.rattle: no such luck\n"
+    for variant in json.loads(output)["variants"]:
+        (told,) = variant["results"]
+        assert told["numbers"] == []
+        assert told["missing"] == "results.rattle: no such luck"

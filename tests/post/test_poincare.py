@@ -115,6 +115,11 @@ def test_refuses() -> None:
         bs.stroboscopic_section(run, "P", "dx", 0.0)
 
 
+def test_a_section_of_words_is_refused() -> None:
+    with pytest.raises(bs.InputError, match=r"section: must return numbers \(got 'closed'\)"):
+        bs.bifurcation({1.0: driven(2.0)}, lambda _run: "closed")
+
+
 @pytest.mark.parametrize(
     ("runs", "said"),
     [

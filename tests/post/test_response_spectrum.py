@@ -46,7 +46,19 @@ def test_sides_and_the_time_after() -> None:
     for side in ("positive", "negative"):
         found = bs.response_spectrum(pulse, hertz, 0.0, side=side)
         assert float(found[0]) == pytest.approx(largest, rel=1e-6)
-    assert float(bs.response_spectrum(pulse, hertz, 0.0, side="positive", after=False)[0]) == 0.0
+    # A spring pushes to the side to which the base accelerates.
+    assert float(bs.response_spectrum(pulse, hertz, 0.0, side="negative", after=False)[0]) == 0.0
+
+
+@pytest.mark.parametrize("side", ["positive", "negative"])
+def test_both_accelerations_of_an_undamped_oscillator_are_one(side: str) -> None:
+    acceleration = over_time(*shaking())
+    pseudo, absolute = (
+        bs.response_spectrum(acceleration, [1.0, 4.0, 11.0], 0.0, quantity=quantity, side=side)
+        for quantity in ("pseudo_acceleration", "absolute_acceleration")
+    )
+    np.testing.assert_allclose(pseudo, absolute, rtol=1e-12)
+    assert (pseudo > 0.0).all()
 
 
 def shaking() -> tuple[FloatArray, FloatArray]:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 from bumpstop.cli.solve import CaseResult, VariantResult
 from bumpstop.modal.basis import ModalBasis
 from bumpstop.post.references import REFERENCE_QUANTITIES, Check
 from bumpstop.response import Response
+
+if TYPE_CHECKING:
+    from bumpstop.post.results.reading import Fact, Result
 
 __all__ = ["case_record"]
 
@@ -17,18 +21,26 @@ def case_record(result: CaseResult) -> dict[str, Any]:
     return {
         "case": result.case.name,
         "variants": [
-            _variant_record(variant, result.case.bases[variant.name]) for variant in result.variants
+            _variant_record(
+                variant,
+                result.case.bases[variant.name],
+                result.case.results.get(variant.name, ()),
+            )
+            for variant in result.variants
         ],
         "passed": result.passed,
     }
 
 
-def _variant_record(variant: VariantResult, basis: ModalBasis) -> dict[str, Any]:
+def _variant_record(
+    variant: VariantResult, basis: ModalBasis, results: Sequence[Result]
+) -> dict[str, Any]:
     told = basis if variant.response is None else variant.response.problem
     record = {
         "name": variant.name,
         **(_NOTHING_RUN if variant.response is None else _run_record(variant.response)),
         "references": [_check_record(check) for check in variant.checks],
+        "results": _result_records(variant.response, results),
         "remarks": list(told.remarks),
         "passed": variant.passed,
     }
@@ -60,6 +72,32 @@ def _run_record(response: Response) -> dict[str, Any]:
         "events": response.event_count,
         "impacts": len(response.impact_table()["start"]),
         "energy_residual": response.energy_residual,
+    }
+
+
+def _result_records(response: Response | None, results: Sequence[Result]) -> list[dict[str, Any]]:
+    """Return the numbers of what the case asks for; curves are in the report and in files."""
+    if response is None or not results:
+        return []
+    from bumpstop.post.results.reading import read_result
+
+    readings = {result.name: read_result(result, response) for result in results}
+    return [
+        {
+            "name": name,
+            "numbers": [_fact_record(fact) for fact in reading.facts],
+            "missing": reading.missing or None,
+        }
+        for name, reading in readings.items()
+    ]
+
+
+def _fact_record(fact: Fact) -> dict[str, Any]:
+    return {
+        "quantity": fact.what.long_name,
+        "units": fact.what.units,
+        "value": fact.value,
+        "uncertainty": fact.uncertainty,
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from bumpstop.arguments import one_of
 from bumpstop.cli.console import print_error, print_json
@@ -38,7 +39,9 @@ def run_command(
         check_writable(out, names)
     result = solve_case(case, stepping, progress_display)
     record = case_record(result)
-    unread = [] if out is None else write_outputs(result, out, exports, report=report)
+    if out is not None:
+        write_outputs(result, out, exports, report=report)
+    unread = _unread(record)
     if json:
         print_json(record)
     else:
@@ -48,6 +51,12 @@ def run_command(
     for line in unread:
         print_error(f"{path}: {line}")
     return 0 if result.passed and not unread else 1
+
+
+def _unread(record: dict[str, Any]) -> list[str]:
+    """Return a line for each result of the case that could not be read, of all variants."""
+    results = [told for variant in record["variants"] for told in variant["results"]]
+    return list(dict.fromkeys(told["missing"] for told in results if told["missing"]))
 
 
 def _exports(case: Case, asked: str | None) -> Exports:

@@ -36,6 +36,10 @@ def print_summary(result: CaseResult, record: dict[str, Any]) -> None:
         for caption, table in _tables(variant):
             print_line(f"  {caption}")
             print_table(table)
+        for told in numbers["results"]:
+            if told["numbers"]:
+                print_line(f"  {told['name']}")
+                print_table(_numbers_table(told["numbers"]))
         for line in [*numbers["remarks"], *_told(variant.response, numbers)]:
             print_line(f"  {line}")
         print_line(f"  {verdict(variant.checks)}", style="green" if variant.passed else "bold red")
@@ -119,6 +123,18 @@ def _table(checks: list[Check]) -> Table:
         rows=[_row(check) for check in checks],
         good=[check.passed for check in checks],
     )
+
+
+def _numbers_table(numbers: Sequence[dict[str, Any]]) -> Table:
+    """Return the numbers of a result, with their uncertainty where some has one."""
+    uncertain = any(isfinite(each["uncertainty"]) for each in numbers)
+    rows = []
+    for each in numbers:
+        unit = "" if each["units"] == "1" else each["units"]
+        cells = [each["quantity"], _number(each["value"])]
+        rows.append([*cells, *([_number(each["uncertainty"])] if uncertain else []), unit])
+    headers = ["", "value", *(["uncertainty"] if uncertain else []), "unit"]
+    return Table(headers, rows, labels=1)
 
 
 def _row(check: Check) -> tuple[str, ...]:

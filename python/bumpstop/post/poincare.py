@@ -144,7 +144,8 @@ def bifurcation(
     Raises
     ------
     InputError
-        If ``runs`` has no pairs of a finite value and a response.
+        If ``runs`` has no pairs of a finite value and a response, or ``section`` returns anything
+        but numbers.
 
     Examples
     --------
@@ -167,12 +168,22 @@ def bifurcation(
     points: list[FloatArray] = []
     for value, response in _pairs(runs):
         check_run(response)
-        found = np.atleast_1d(np.asarray(section(response), dtype=np.float64)).ravel()
+        found = _numbers(section(response))
         values += [finite(parameter, value)] * len(found)
         points.append(found)
     table = pd.DataFrame({parameter: values, "value": np.concatenate([np.empty(0), *points])})
     table.attrs["units"] = {parameter: units}
     return table
+
+
+def _numbers(found: object) -> FloatArray:
+    """Return what a section found, (point,)."""
+    try:
+        numbers = np.asarray(found, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        what = "must return numbers"
+        raise InputError(what, key="section", value=found) from error
+    return np.atleast_1d(numbers).ravel()
 
 
 def _pairs(

@@ -26,7 +26,7 @@ __all__ = ["oscillator", "response_spectrum"]
 Complexes: TypeAlias = NDArray[np.complex128]
 
 QUANTITIES = {
-    "pseudo_acceleration": ("m/s^2", "largest ω² times relative displacement"),
+    "pseudo_acceleration": ("m/s^2", "largest -ω² times relative displacement"),
     "pseudo_velocity": ("m/s", "largest ω times relative displacement"),
     "relative_displacement": ("m", "largest relative displacement"),
     "relative_velocity": ("m/s", "largest relative velocity"),
@@ -66,7 +66,9 @@ def response_spectrum(
         ``"relative_velocity"`` or ``"absolute_acceleration"``.
     side
         ``"both"``: the largest magnitude; ``"positive"``, ``"negative"``: the largest excursion
-        to one side.
+        of the quantity to one side. The pseudo-acceleration is -w2 z, the absolute one of an
+        oscillator without damper, so that both name the same side: that to which its spring pushes
+        it.
     after
         Whether the free vibration after the end of the acceleration counts.
 
@@ -200,8 +202,11 @@ def _read(
         case "absolute_acceleration":
             total = -2.0 * damping * omega * v - omega**2 * z
             return total, -2.0 * damping * omega * a - omega**2 * v
-    power = {"relative_displacement": 0, "pseudo_velocity": 1, "pseudo_acceleration": 2}[quantity]
-    return omega**power * z, omega**power * v
+        case "pseudo_acceleration":
+            return -(omega**2) * z, -(omega**2) * v
+        case "pseudo_velocity":
+            return omega * z, omega * v
+    return z, v
 
 
 def _extreme(times: FloatArray, values: FloatArray, rates: FloatArray) -> float:
