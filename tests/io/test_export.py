@@ -155,6 +155,16 @@ def test_python_plays_waves(thrown: bs.Response, tmp_path: Path) -> None:
     np.testing.assert_allclose(sound, 0.99 * 32767 * force / np.abs(force).max(), atol=1.0)
 
 
+def test_a_wave_without_the_blows_of_a_rigid_stop_is_refused(tmp_path: Path) -> None:
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    wall = bs.RigidStop("wall", node="P", normal=(1, 0, 0), gap=0.01, restitution=0.8)
+    thrown = bs.ModalState(velocity=[-1.0])
+    run = bs.simulate(bs.Problem(basis, laws=[wall], initial=thrown, duration=2.0))
+    with pytest.raises(bs.InputError, match=r"stop: is rigid.*blows"):
+        write_wav(run, tmp_path / "run.wav", "stop_force", "wall")
+    assert not (tmp_path / "run.wav").exists()
+
+
 def test_a_wave_is_the_first_velocity_where_nothing_is_said(
     thrown: bs.Response, tmp_path: Path
 ) -> None:

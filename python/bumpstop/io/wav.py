@@ -13,6 +13,7 @@ from bumpstop.arguments import count, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
 from bumpstop.io.signals import BLOCK, signals
+from bumpstop.post.blows import refuse_blows
 from bumpstop.quantities import QUANTITIES
 
 if TYPE_CHECKING:
@@ -60,7 +61,8 @@ def write_wav(
     ------
     InputError
         If the quantity or what it is of are unknown, a number is out of range, the sound would be
-        longer than the format holds, or the file cannot be written there.
+        longer than the format holds, it is the force of a rigid stop, which lacks the blows, or the
+        file cannot be written there.
     """
     if quantity is None:
         chosen = next(each for each in signals(response) if each.quantity == "velocity")
@@ -68,6 +70,7 @@ def write_wav(
     one_of("quantity", quantity, tuple(QUANTITIES))
     if quantity.startswith("modal_") and not target:
         raise InputError("must be one mode, counted from 1", key="target", value=quantity)
+    refuse_blows(response.problem, quantity, *target)
     pace = count("rate", rate, most=FASTEST) * positive("slowed", slowed)
     samples = int(response.problem.duration * pace) + 1
     if 2 * samples > MOST:

@@ -219,7 +219,8 @@ class Recovery:
         """Return what supports, relations and links do to a node: ``dx`` ... in N, ``drx`` in N m.
 
         It is what all other forces at the node lack for equilibrium, and so nothing but
-        rounding at a node that is free, if there is static correction; of a full model, what
+        rounding at a node that is free or on springs (`spring_forces` has theirs), if there is
+        static correction; of a full model, what
         its step method leaves between two steps.
 
         Raises
@@ -245,6 +246,22 @@ class Recovery:
         return xr.Dataset(
             found, coords={"time": time_coordinate(self.response.times)}, attrs={"node": node}
         )
+
+    def spring_forces(self, spring: str) -> xr.Dataset:
+        """Return what a spring, damper or bearing does to each of its nodes.
+
+        ``dx`` ... in N and ``drx`` ... in N m over ``node`` and ``time``, in global axes: its
+        matrices times displacements, with static correction, and velocities, which have none. To
+        the ground it does the opposite of what it does to its only node.
+
+        Raises
+        ------
+        InputError
+            If the structure has no such spring or bearing.
+        """
+        from bumpstop.post.spring_forces import spring_forces
+
+        return spring_forces(self, spring)
 
     def resultants(self) -> xr.Dataset:
         """Return the sum of the forces of each kind, and their moments about the origin.
