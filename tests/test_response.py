@@ -321,6 +321,7 @@ class TestSampling:
             ([-1e-9], "within the simulated time"),
             ([float("nan")], "within the simulated time"),
             (["soon"], "must be numbers"),
+            ("0.1", "must be numbers, not text"),
             ([[0.1]], "a list of instants"),
         ],
     )

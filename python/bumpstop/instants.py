@@ -73,9 +73,12 @@ def checked_times(times: ArrayLike, duration: float) -> FloatArray:
         If they are no list of numbers, or one lies outside the simulated time.
     """
     try:
-        instants = np.array(times, dtype=np.float64, ndmin=1)
+        given = np.array(times, ndmin=1)
+        instants = given.astype(np.float64)
     except (TypeError, ValueError) as error:
         raise InputError("must be numbers", key="times", value=times) from error
+    if given.dtype.kind in "US":
+        raise InputError("must be numbers, not text", key="times", value=times)
     if instants.ndim != 1:
         raise InputError("must be a list of instants", key="times", value=times)
     outside = ~((instants >= -ROUNDING * duration) & (instants <= (1.0 + ROUNDING) * duration))
