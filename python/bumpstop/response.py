@@ -412,6 +412,9 @@ class Response:
     def gauge(self, name: str) -> xr.DataArray:
         """Return the axial strain at a gauge over time.
 
+        It is that of the modes of the basis, as displacements are; ``recovery(response).strain``
+        adds what the modes left out do, which near a stop or load may be a tenth and more.
+
         Raises
         ------
         InputError
