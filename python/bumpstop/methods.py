@@ -80,7 +80,7 @@ FULL_METHODS = ("newmark", "hht", "generalized_alpha", "central_difference")
 """Methods that take a full model, which is not reduced to modes."""
 RIGID_METHODS = ("exact", "moreau_jean")
 """Methods that take rigid stops, at which velocities jump."""
-MODE_BY_MODE = (*EXPLICIT_METHODS, "devogelaere", "exponential")
+MODE_BY_MODE = ("central_difference", "devogelaere", "exponential")
 """Methods that carry each mode by itself."""
 
 
@@ -220,13 +220,16 @@ def _refuse_stepped_laws(method: str, problem: Problem) -> None:
 def _refuse_smooth_laws(method: str, problem: Problem) -> None:
     """Raise for the exact method, which asks laws for matrices, where one has none.
 
-    Schemes for equations of motion refuse laws with rate equations of their own.
+    Implicit schemes refuse laws with rate equations of their own, explicit ones those of them that
+    switch by what they remember.
     """
     if method in ADAPTIVE_METHODS:
         return
     for law in problem.laws:
         reason = smoothness(law)
-        if reason and (method == "exact" or getattr(law, "flows", False)):
+        explicit = EXPLICIT_METHODS if getattr(law, "flows_in_steps", False) else ()
+        flows = getattr(law, "flows", False) and method not in explicit
+        if reason and (method == "exact" or flows):
             what = f"does not take {law.name!r}: {reason}"
-            hint = f"{', '.join(ADAPTIVE_METHODS)} do"
+            hint = f"{', '.join((*explicit, *ADAPTIVE_METHODS))} do"
             raise InputError(what, key="method", value=method, hint=hint)

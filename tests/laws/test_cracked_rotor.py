@@ -132,7 +132,20 @@ def test_straight_lines_join_the_points() -> None:
     assert law.derivative_at([last])[0] == pytest.approx(0.5 * (slopes[-1][1] + slopes[0][1]))
 
 
-@pytest.mark.parametrize("method", ["exact", "newmark", "symplectic_euler"])
+@pytest.mark.parametrize("method", ["symplectic_euler", "central_difference"])
+def test_explicit_steps_keep_the_time_of_the_crack(method: str) -> None:
+    given = problem(crack())
+    times = np.linspace(0.0, given.duration, 101)
+    expected = bs.simulate(given, rtol=1e-10).history.motion(times, 0)
+    errors = []
+    for steps in (4_000, 40_000):
+        found = bs.simulate(given, method, dt=given.duration / steps).history.motion(times, 0)
+        errors.append(np.abs(found - expected).max() / np.abs(expected).max())
+    assert errors[0] < 0.05
+    assert errors[1] < 0.11 * errors[0]
+
+
+@pytest.mark.parametrize("method", ["exact", "newmark"])
 def test_methods_without_rate_equations_refuse_it(method: str) -> None:
     with pytest.raises(bs.InputError, match="direction of its bending"):
         bs.simulate(problem(crack()), method, dt=None if method == "exact" else 1e-4)

@@ -219,7 +219,28 @@ def test_a_growing_motion_is_paid_for_by_circulatory_forces() -> None:
     assert response.energy_residual < 1e-12
 
 
-def test_fixed_steps_are_refused() -> None:
+def test_symplectic_euler_tends_to_the_exact_motion_of_coupled_modes() -> None:
+    """To first order, with what dampers take and circulatory forces give."""
+    of = basis(damping=DAMPER, skew=SKEW, circulatory=CIRCULATORY)
+    stop = bs.Stop("stop", node="R", normal=(1, 0, 0), gap=GAP, stiffness=STOP_STIFFNESS)
+    given = problem(of, laws=[stop])
+    exact = bs.simulate(given, "exact")
+    times = np.linspace(0.0, DURATION, 101)
+    expected = exact.history.motion(times, 0)
+    terms = ("dissipated_damping", "circulatory_work")
+    known = {term: exact.energy_terms([DURATION])[term][0] for term in terms}
+    errors = []
+    for dt in (1e-4, 1e-5):
+        found = bs.simulate(given, "symplectic_euler", dt=dt)
+        apart = np.abs(found.history.motion(times, 0) - expected).max() / np.abs(expected).max()
+        energy = found.energy_terms([DURATION])
+        lacks = [abs(energy[term][0] / known[term] - 1.0) for term in terms]
+        errors.append([apart, *lacks, found.energy_residual])
+    assert max(errors[0]) < 0.1
+    assert (np.array(errors[1]) < 0.15 * np.array(errors[0])).all()
+
+
+def test_the_central_difference_is_refused() -> None:
     for of in (basis(damping=DAMPER), basis(circulatory=SKEW)):
         with pytest.raises(bs.InputError, match="method: does not take modes that damping"):
             bs.simulate(problem(of), method="central_difference", dt=1e-5)

@@ -153,7 +153,7 @@ impl<L: Law> History<L> {
                 let (mut q, mut v) = (vec![0.0; modes], vec![0.0; modes]);
                 for &time in times {
                     record.sample(time, &mut q, &mut v);
-                    let known = record.states_at(time);
+                    let known = record.states_at(&self.problem.laws, time).into_iter();
                     see(
                         time,
                         &q,

@@ -97,6 +97,8 @@ class CrackedRotor:
     """Why it is not piecewise linear."""
     flows: ClassVar[bool] = True
     """It keeps the time by a rate equation."""
+    flows_in_steps: ClassVar[bool] = True
+    """Nothing switches by it: explicit steps follow it, too."""
     internal_variables: ClassVar[tuple[str, ...]] = ("bending_direction",)
 
     name: str

@@ -75,9 +75,12 @@ class ZenerDamper(Connection):
 
     kind: ClassVar[str] = "damper"
     smooth: ClassVar[str] = "its dashpot follows a rate equation"
-    flows: ClassVar[bool] = True
-    internal_variables: ClassVar[tuple[str, ...]] = ("dashpot_elongation",)
     """Why it is not piecewise linear."""
+    flows: ClassVar[bool] = True
+    """The dashpot is followed beside the motion."""
+    flows_in_steps: ClassVar[bool] = True
+    """Nothing switches by what it remembers: explicit steps follow it, too."""
+    internal_variables: ClassVar[tuple[str, ...]] = ("dashpot_elongation",)
 
     _: KW_ONLY
     series_stiffness: float

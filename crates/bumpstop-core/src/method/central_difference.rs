@@ -12,7 +12,7 @@ use super::fixed_step::{
     VelocityRule, among_many, check_forces, check_growth, check_step, check_uncoupled, coupling,
     highest_frequency, in_lanes, law_force, laws_damping, modal, pushed, run,
 };
-use super::{Observer, check_memories, check_not_stepped};
+use super::{Observer, check_flows, check_not_stepped};
 use crate::error::Result;
 use crate::history::History;
 use crate::law::{COORDINATES, Law, Local, Stop, project};
@@ -43,7 +43,7 @@ pub fn simulate<L: Law>(
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Central)?;
     check_uncoupled(NAME, &problem.system)?;
     check_forces(NAME, &problem.laws)?;
-    check_memories(NAME, &problem.laws)?;
+    check_flows(NAME, &problem.laws)?;
     check_not_stepped(NAME, &problem.laws)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = CentralDifference {

@@ -13,7 +13,7 @@ pub mod symplectic_euler;
 
 use crate::error::{Error, Result};
 use crate::history::History;
-use crate::law::Law;
+use crate::law::{Law, State};
 use crate::problem::Problem;
 use crate::system::ModalSystem;
 use std::sync::Arc;
@@ -102,6 +102,16 @@ fn check_rigid_friction<L: Law>(method: &'static str, laws: &[L]) -> Result<()> 
 /// Refuses laws whose memory follows rate equations: the schemes are for equations of motion.
 pub(crate) fn check_memories<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
     match laws.iter().position(Law::flows) {
+        Some(law) => Err(Error::FlowingMemory { method, law }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses laws whose memory follows rate equations and rules when they switch: steps see switches
+/// at their ends alone.
+pub(crate) fn check_flows<L: Law>(method: &'static str, laws: &[L]) -> Result<()> {
+    let ruled = |law: &L| law.flows() && law.guard_count(State::FIRST) > 0;
+    match laws.iter().position(ruled) {
         Some(law) => Err(Error::FlowingMemory { method, law }),
         None => Ok(()),
     }

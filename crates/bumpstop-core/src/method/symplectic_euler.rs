@@ -7,16 +7,16 @@
 
 use super::fixed_step::{
     Any, ChangingLoads, Count, Follow, March, Modal, Scheme, Setting, Step, StepRecord,
-    VelocityRule, among_many, check_forces, check_growth, check_step, check_uncoupled, coupling,
-    highest_frequency, in_lanes, law_force, laws_damping, modal, pushed, run,
+    VelocityRule, among_many, check_forces, check_growth, check_step, coupling, highest_frequency,
+    in_lanes, law_force, laws_damping, modal, pushed, run,
 };
-use super::{Observer, check_memories};
+use super::{Observer, check_flows};
 use crate::error::Result;
 use crate::history::History;
 use crate::law::{COORDINATES, Law, Local, Stop, project};
-use crate::number::{Instructions, Lanes, Number};
+use crate::number::{Block, Instructions, Lanes, Number, blocks};
 use crate::problem::Problem;
-use crate::system::ModalSystem;
+use crate::system::{Coupling, ModalSystem};
 use std::sync::Arc;
 
 /// The method's name.
@@ -26,7 +26,8 @@ pub const NAME: &str = "symplectic_euler";
 pub fn stability_limit<L: Law>(system: &ModalSystem, laws: &[L]) -> f64 {
     let omega = highest_frequency(system, laws);
     let modal = system.damping().iter().fold(0.0f64, |m, c| m.max(*c));
-    let half = 0.5 * (modal + laws_damping(laws));
+    let coupled = system.coupling().map_or(0.0, Coupling::size);
+    let half = 0.5 * (modal + coupled + laws_damping(laws));
     2.0 / (half + half.hypot(omega))
 }
 
@@ -40,9 +41,8 @@ pub fn simulate<L: Law>(
     observer: Observer<'_>,
 ) -> Result<History<L>> {
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Backward)?;
-    check_uncoupled(NAME, &problem.system)?;
     check_forces(NAME, &problem.laws)?;
-    check_memories(NAME, &problem.laws)?;
+    check_flows(NAME, &problem.laws)?;
     check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
     let march = SymplecticEuler {
         record: &mut record,
@@ -185,6 +185,10 @@ struct Modes<I: Instructions> {
     before: Vec<f64>,
     displacement: Vec<Lanes<I>>,
     velocity: Vec<Lanes<I>>,
+    /// What couples velocities, and displacements.
+    matrices: [Option<Coupling>; 2],
+    /// Room for numbers of the modes.
+    plain: Vec<Block>,
 }
 
 impl<I: Instructions> Modes<I> {
@@ -196,6 +200,9 @@ impl<I: Instructions> Modes<I> {
             before: displacement_before(setting, dt),
             displacement: modal::<I, Any>(setting.displacement),
             velocity: modal::<I, Any>(setting.velocity),
+            matrices: [setting.system.coupling(), setting.system.circulatory()]
+                .map(Option::<&Coupling>::cloned),
+            plain: blocks(setting.displacement),
         }
     }
 }
@@ -208,6 +215,22 @@ impl<I: Instructions> Scheme<I> for Modes<I> {
     }
     fn before(&self) -> &[f64] {
         &self.before
+    }
+    fn couple(&mut self, load: &mut [Block]) {
+        let motions = [&self.velocity, &self.displacement];
+        for (matrix, motion) in self.matrices.iter().zip(motions) {
+            let Some(matrix) = matrix else { continue };
+            for (to, motion) in self.plain.iter_mut().zip(motion) {
+                motion.to_block(to);
+            }
+            let motion = &self.plain.as_flattened()[..matrix.modes()];
+            for (mode, load) in load.as_flattened_mut()[..matrix.modes()]
+                .iter_mut()
+                .enumerate()
+            {
+                *load -= matrix.product(mode, motion);
+            }
+        }
     }
     #[inline(always)]
     fn step(&mut self, block: usize, force: Lanes<I>) -> Lanes<I> {

@@ -5,6 +5,7 @@ use crate::energy::{self, Growth, Ledger};
 use crate::error::{Error, Result};
 use crate::law::{Law, Local, State};
 use crate::problem::Problem;
+use crate::system::Coupling;
 
 /// Steps between two looks at the energy of the structure.
 const STRIDE: usize = 16;
@@ -83,6 +84,8 @@ pub(crate) fn step_ledgers<L: Law>(problem: &Problem<L>, record: &StepRecord) ->
             let half = 0.5 * record.dt;
             changing_work += half * (previous.load + powers.load);
             ledger.load_work += changing_work;
+            ledger.circulatory_work =
+                last.circulatory_work + half * (previous.circulatory + powers.circulatory);
             ledger.obstacle_work =
                 last.obstacle_work + half * (previous.obstacles + powers.obstacles);
             ledger.modal_dissipation =
@@ -108,6 +111,8 @@ struct Powers {
     modal: f64,
     /// Of the loads that change in time.
     load: f64,
+    /// Of circulatory forces.
+    circulatory: f64,
     /// Of the obstacles that move.
     obstacles: f64,
     laws: Vec<f64>,
@@ -136,10 +141,19 @@ impl Powers {
                 obstacles += law.force(*state, position, velocity)[0] * rate;
             }
         }
+        let taken = |matrix: Option<&Coupling>, motion: &[f64]| {
+            let forces = |matrix: &Coupling| {
+                let each = v.iter().enumerate();
+                each.map(|(mode, v)| matrix.product(mode, motion) * v).sum()
+            };
+            matrix.map_or(0.0, forces)
+        };
+        let own: f64 = (problem.system.damping().iter().zip(v))
+            .map(|(c, v)| c * v * v)
+            .sum();
         Self {
-            modal: (problem.system.damping().iter().zip(v))
-                .map(|(c, v)| c * v * v)
-                .sum(),
+            modal: own + taken(problem.system.coupling(), v),
+            circulatory: -taken(problem.system.circulatory(), q),
             load: problem.forcing.changing_power(time, v),
             laws: laws()
                 .map(|((law, state), [position, velocity])| {

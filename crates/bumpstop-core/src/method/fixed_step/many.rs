@@ -2,6 +2,7 @@
 
 use super::laws::law_force;
 use super::loads::ChangingLoads;
+use super::memories::flowed;
 use super::record::StepRecord;
 use super::setting::Setting;
 use crate::error::Result;
@@ -25,6 +26,9 @@ pub(crate) trait Scheme<I: Instructions> {
 
     /// Modal displacements one step before the start.
     fn before(&self) -> &[f64];
+
+    /// Takes off the forces of a step what matrices that couple the modes make of the motion.
+    fn couple(&mut self, _load: &mut [Block]) {}
 
     /// Moves eight modes one step on under their forces, and returns what laws read of them.
     fn step(&mut self, block: usize, force: Lanes<I>) -> Lanes<I>;
@@ -56,6 +60,7 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
     let same = vec![1.0; setting.system.modes()];
     let mut changing = ChangingLoads::new(setting.forcing, record.dt, &same);
     let mut load = blocks(setting.forcing.forces());
+    let mut total = load.clone();
     let changes = setting.forcing.varies();
     let moves = setting.moves();
     let (dt, mut step) = (record.dt, 0);
@@ -98,11 +103,25 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
                 }
             }
             step += 1;
-            rows.step(&mut scheme, &load);
+            total.copy_from_slice(&load);
+            scheme.couple(&mut total);
+            rows.step(&mut scheme, &total);
             let mut read = rows.read.iter();
-            for (law, local) in setting.laws.iter().zip(&mut followed) {
+            let laws = setting.laws.iter().zip(&mut followed);
+            for (number, (law, local)) in laws.enumerate() {
+                let before = *local.position();
                 for (coordinate, read) in read.by_ref().take(law.rows().len()).enumerate() {
                     local.follow(coordinate, *read);
+                }
+                if law.flows() {
+                    let times = [f64::from(step - 1) * dt, f64::from(step) * dt];
+                    let path = [before, *local.position()];
+                    let path = if moves {
+                        setting.seen_along((number, times), path)
+                    } else {
+                        path
+                    };
+                    seen[number].memory = flowed(*law, seen[number], path, dt);
                 }
             }
             for (block, q) in kept.iter_mut().zip(scheme.displacement()) {

@@ -92,7 +92,7 @@ impl<P: Law, M: March> Vectorised for Counted<'_, P, M> {
     #[inline(always)]
     fn run<I: Instructions>(self) -> Result<()> {
         let Self { setting, march } = self;
-        if setting.laws.len() >= MANY || setting.moves() {
+        if setting.laws.len() >= MANY || setting.is_special() {
             return march.among_many::<P, I>(setting);
         }
         if setting.forcing.varies() {

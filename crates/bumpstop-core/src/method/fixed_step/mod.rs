@@ -6,6 +6,7 @@ mod ledgers;
 mod loads;
 mod many;
 mod march;
+mod memories;
 mod record;
 mod setting;
 mod states;

@@ -16,6 +16,9 @@ const LARGEST_RECORD: f64 = 4.0 * 1024.0 * 1024.0 * 1024.0;
 /// How often the observer is asked, in steps; a multiple of [`STRETCH`].
 const STEPS_BETWEEN_OBSERVATIONS: usize = 1024;
 
+/// Part of a step by which a time on one may miss it.
+const AT_A_STEP: f64 = 1e-9;
+
 /// Steps for which room is made at once.
 const STRETCH: usize = 64;
 
@@ -163,9 +166,23 @@ impl StepRecord {
         self.states.at(n)
     }
 
-    /// The laws' states at the last step before a time, or at it.
-    pub fn states_at(&self, time: f64) -> impl Iterator<Item = State> {
-        self.states(((time / self.dt) as usize).min(self.steps))
+    /// The laws' states at the last step before a time, or at it. A memory that flows is between
+    /// those of the steps before and after.
+    pub(crate) fn states_at<L: Law>(&self, laws: &[L], time: f64) -> Vec<State> {
+        let position = (time / self.dt).min(self.steps as f64);
+        // A step that the time lies on up to rounding counts as reached.
+        let n = (position + AT_A_STEP) as usize;
+        let part = (position - n as f64).max(0.0);
+        let mut states: Vec<State> = self.states(n).collect();
+        let next = self.states((n + 1).min(self.steps));
+        for ((law, state), next) in laws.iter().zip(&mut states).zip(next) {
+            if law.flows() {
+                for (memory, next) in state.memory.iter_mut().zip(next.memory) {
+                    *memory += part * (next - *memory);
+                }
+            }
+        }
+        states
     }
 
     /// The switches of the laws, in order of time.

@@ -45,10 +45,27 @@ impl<'a, P: Law> Setting<'a, P> {
         (self.forcing).seen_from_obstacle(number, 0.0, [position, velocity])
     }
 
+    /// Two positions of a law at two times, from its obstacle.
+    pub(super) fn seen_along(
+        &self,
+        (number, times): (usize, [f64; 2]),
+        path: [Local<f64>; 2],
+    ) -> [Local<f64>; 2] {
+        [0, 1].map(|end| {
+            let local = [path[end], [0.0; 3]];
+            (self.forcing).seen_from_obstacle(number, times[end], local)[0]
+        })
+    }
+
     /// The force of a law at t = 0.
     pub(crate) fn first_force(&self, number: usize) -> Local<f64> {
         let [position, velocity] = self.start_from_obstacle(number);
         self.laws[number].force(self.first_state(number), &position, &velocity)
+    }
+
+    /// Whether steps are more than those of modes by themselves among laws that stand still.
+    pub(super) fn is_special(&self) -> bool {
+        self.moves() || self.system.is_coupled() || self.laws.iter().any(|law| law.flows())
     }
 
     /// The state of a law at t = 0.
