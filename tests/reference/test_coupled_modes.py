@@ -219,11 +219,12 @@ def test_a_growing_motion_is_paid_for_by_circulatory_forces() -> None:
     assert response.energy_residual < 1e-12
 
 
-def test_symplectic_euler_tends_to_the_exact_motion_of_coupled_modes() -> None:
+@pytest.mark.parametrize("stops", [0, 1])
+def test_symplectic_euler_tends_to_the_exact_motion_of_coupled_modes(stops: int) -> None:
     """To first order, with what dampers take and circulatory forces give."""
     of = basis(damping=DAMPER, skew=SKEW, circulatory=CIRCULATORY)
     stop = bs.Stop("stop", node="R", normal=(1, 0, 0), gap=GAP, stiffness=STOP_STIFFNESS)
-    given = problem(of, laws=[stop])
+    given = problem(of, laws=[stop] * stops)
     exact = bs.simulate(given, "exact")
     times = np.linspace(0.0, DURATION, 101)
     expected = exact.history.motion(times, 0)

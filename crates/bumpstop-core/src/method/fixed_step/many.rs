@@ -2,7 +2,6 @@
 
 use super::laws::law_force;
 use super::loads::ChangingLoads;
-use super::memories::flowed;
 use super::record::StepRecord;
 use super::setting::Setting;
 use crate::error::Result;
@@ -60,7 +59,9 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
     let same = vec![1.0; setting.system.modes()];
     let mut changing = ChangingLoads::new(setting.forcing, record.dt, &same);
     let mut load = blocks(setting.forcing.forces());
-    let mut total = load.clone();
+    let is_coupled = setting.system.is_coupled();
+    let mut coupled = load.clone();
+    let flows = setting.laws.iter().any(|law| law.flows());
     let changes = setting.forcing.varies();
     let moves = setting.moves();
     let (dt, mut step) = (record.dt, 0);
@@ -69,7 +70,7 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
         followed.push(scheme.followed(*law, setting));
     }
     let mut seen = record.begin(setting, scheme.before());
-    let states = seen.len();
+    let states = seen.len().max(1);
     while let Some(stretch) = record.next_stretch() {
         stretch.observe(observer)?;
         let kept = stretch.rows.chunks_exact_mut(load.len());
@@ -103,9 +104,14 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
                 }
             }
             step += 1;
-            total.copy_from_slice(&load);
-            scheme.couple(&mut total);
-            rows.step(&mut scheme, &total);
+            let push = if is_coupled {
+                coupled.copy_from_slice(&load);
+                scheme.couple(&mut coupled);
+                &coupled
+            } else {
+                &load
+            };
+            rows.step(&mut scheme, push);
             let mut read = rows.read.iter();
             let laws = setting.laws.iter().zip(&mut followed);
             for (number, (law, local)) in laws.enumerate() {
@@ -113,15 +119,10 @@ pub(crate) fn among_many<P: Law, I: Instructions, S: Scheme<I>>(
                 for (coordinate, read) in read.by_ref().take(law.rows().len()).enumerate() {
                     local.follow(coordinate, *read);
                 }
-                if law.flows() {
+                if flows && law.flows() {
                     let times = [f64::from(step - 1) * dt, f64::from(step) * dt];
                     let path = [before, *local.position()];
-                    let path = if moves {
-                        setting.seen_along((number, times), path)
-                    } else {
-                        path
-                    };
-                    seen[number].memory = flowed(*law, seen[number], path, dt);
+                    seen[number].memory = setting.flowed(number, seen[number], path, times);
                 }
             }
             for (block, q) in kept.iter_mut().zip(scheme.displacement()) {
@@ -162,7 +163,7 @@ impl<I: Instructions> Rows<I> {
             .flat_map(|law| law.rows().iter().take(COORDINATES))
             .map(|row| blocks(row))
             .collect();
-        let count = padded(rows.len());
+        let count = padded(rows.len().max(1));
         let mut columns = vec![[0.0; LANES]; count * modes.div_ceil(LANES)];
         for (block, column) in columns.chunks_exact_mut(count).enumerate() {
             for (to, row) in column.iter_mut().zip(&rows) {

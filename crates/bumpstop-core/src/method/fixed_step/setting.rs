@@ -1,5 +1,6 @@
 //! What a march starts from.
 
+use super::memories::flowed;
 use crate::forcing::Forcing;
 use crate::law::{Law, Local, LocalMotion, State, project};
 use crate::problem::Problem;
@@ -45,16 +46,20 @@ impl<'a, P: Law> Setting<'a, P> {
         (self.forcing).seen_from_obstacle(number, 0.0, [position, velocity])
     }
 
-    /// Two positions of a law at two times, from its obstacle.
-    pub(super) fn seen_along(
+    /// The memory of a law that flows, after its coordinates have gone along a path between two
+    /// times.
+    pub(super) fn flowed(
         &self,
-        (number, times): (usize, [f64; 2]),
+        number: usize,
+        state: State,
         path: [Local<f64>; 2],
-    ) -> [Local<f64>; 2] {
-        [0, 1].map(|end| {
-            let local = [path[end], [0.0; 3]];
+        times: [f64; 2],
+    ) -> [f64; 2] {
+        let seen = [0, 1].map(|end| {
+            let local = [path[end], Local::default()];
             (self.forcing).seen_from_obstacle(number, times[end], local)[0]
-        })
+        });
+        flowed(self.laws[number], state, seen, times[1] - times[0])
     }
 
     /// The force of a law at t = 0.
