@@ -154,7 +154,7 @@ def _refuse_coupled_modes(method: str, problem: Problem) -> None:
             "does not take modes that damping or gyroscopic forces couple",
             key="method",
             value=method,
-            hint=f"the exact method and {', '.join(ADAPTIVE_METHODS)} do",
+            hint=f"the exact method, symplectic_euler and {', '.join(ADAPTIVE_METHODS)} do",
         )
 
 

@@ -413,7 +413,7 @@ class Response:
         """Return the axial strain at a gauge over time.
 
         It is that of the modes of the basis, as displacements are; ``recovery(response).strain``
-        adds what the modes left out do, which near a stop or load may be a tenth and more.
+        adds what the modes left out do, most of it near stops and loads.
 
         Raises
         ------

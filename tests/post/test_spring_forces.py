@@ -13,6 +13,11 @@ STEEL = bs.Material(young_modulus=210e9, poisson_ratio=0.3, density=7800.0)
 ALONG = ("dy", "dz", "drx", "dry", "drz")
 
 
+def beam(elements: int) -> bs.Beam:
+    section = bs.Rectangle(height=0.02, width=0.03)
+    return bs.Beam("AB", nodes=("A", "B"), elements=elements, material=STEEL, section=section)
+
+
 def thrown(damping: float) -> tuple[bs.Response, float, float]:
     """A mass on a spring and damper to the ground; its angular frequency and rate of decay."""
     mass, stiffness = 2.0, 800.0
@@ -51,16 +56,9 @@ def test_a_mass_on_a_spring_and_a_damper(damping: float) -> None:
 @pytest.fixture(scope="module")
 def shaken() -> bs.Response:
     """A beam on mounts at its ends, and on a strut between it and a mass aside."""
-    beam = bs.Beam(
-        "AB",
-        nodes=("A", "B"),
-        elements=6,
-        material=STEEL,
-        section=bs.Rectangle(height=0.02, width=0.03),
-    )
     structure = bs.Structure(
         nodes={"A": (0, 0, 0), "B": (1, 0, 0), "M": (1.0, 0.3, 0.2)},
-        beams=[beam],
+        beams=[beam(6)],
         masses=[bs.PointMass("m", node="M", mass=1.5, inertia=(0.02, 0.03, 0.04))],
         springs=[
             bs.Spring("left", node="A", stiffness=(2e5, 3e5, 4e5, 300.0, 400.0, 500.0)),
@@ -127,16 +125,9 @@ def test_what_there_is_not_is_refused() -> None:
     run, _, _ = thrown(0.0)
     with pytest.raises(bs.InputError, match=r"spring: .*did you mean 'mount'"):
         bs.recovery(run).spring_forces("mont")
-    beam = bs.Beam(
-        "AB",
-        nodes=("A", "B"),
-        elements=1,
-        material=STEEL,
-        section=bs.Rectangle(height=0.02, width=0.03),
-    )
     clamped = bs.Structure(
         nodes={"A": (0, 0, 0), "B": (1, 0, 0)},
-        beams=[beam],
+        beams=[beam(1)],
         supports=[bs.Support(nodes="A", fixed=DOFS)],
     )
     basis = bs.ModalBasis.from_structure(clamped, modes=1)

@@ -48,13 +48,8 @@ def older_outputs(folder: Path, written: Sequence[str]) -> list[str]:
     return sorted(set(names) - set(written))
 
 
-def write_outputs(result: CaseResult, folder: Path, exports: Exports, *, report: bool) -> list[str]:
+def write_outputs(result: CaseResult, folder: Path, exports: Exports, *, report: bool) -> None:
     """Write ``<variant>/response.nc`` of each variant that ran, exports, and ``report.html``.
-
-    Returns
-    -------
-    list of str
-        A line for each result of the case that could not be read.
 
     Raises
     ------
@@ -74,7 +69,8 @@ def write_outputs(result: CaseResult, folder: Path, exports: Exports, *, report:
             )
             for file in others:
                 response.export(staging / name / file)
-        return _write_report(result, staging) if report else []
+        if report:
+            _write_report(result, staging)
 
 
 def _response_files(variant: str, exports: Exports) -> list[str]:
