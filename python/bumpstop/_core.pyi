@@ -125,15 +125,16 @@ class Forcing:
         """
     def with_motions(
         self,
-        polynomials: list[tuple[int, Array]],
-        harmonics: list[tuple[int, float, float, float]],
-        tables: list[tuple[int, Array, Array, bool]],
+        polynomials: list[tuple[tuple[int, int], Array]],
+        harmonics: list[tuple[tuple[int, int], float, float, float]],
+        tables: list[tuple[tuple[int, int], Array, Array, bool]],
     ) -> Forcing:
-        """Return the same with obstacles that move, in m, each by the number of its law.
+        """Return the same with obstacles that move, in m.
 
-        Polynomials are (law, coefficients), harmonics (law, angular frequency in rad/s, amplitudes
-        of cosine and sine), tables (law, times, values, whether the values at their ends hold
-        beyond them).
+        Each is told by the number of its law and that of the coordinate that the motion is taken
+        off. Polynomials are (obstacle, coefficients), harmonics (obstacle, angular frequency in
+        rad/s, amplitudes of cosine and sine), tables (obstacle, times, values, whether the values
+        at their ends hold beyond them).
         """
     def at(self, time: float) -> Array:
         """Modal forces (N,) at a time in s; just after it where they jump."""

@@ -77,19 +77,21 @@ def _system(problem: Problem) -> _core.System:
 def obstacle_motions(problem: Problem, loads: _core.Forcing) -> _core.Forcing:
     """Return loads with the motions of obstacles beside them."""
     # Few obstacles move: what follows them is imported where one does.
+    own = [getattr(law, "motions", ()) for law in problem.laws]
     moved = [
-        (law, (*getattr(stop, "functions", ()), *carried))
-        for law, (stop, carried) in enumerate(zip(problem.laws, _carried(problem), strict=True))
+        ((law, coordinate), functions)
+        for motions in (own, _carried(problem))
+        for law, along in enumerate(motions)
+        for coordinate, functions in enumerate(along)
+        if functions
     ]
-    if any(functions for _, functions in moved):
-        return _with_motions(loads, moved, problem.duration)
-    return loads
+    return _with_motions(loads, moved, problem.duration) if moved else loads
 
 
-def _carried(problem: Problem) -> Sequence[Sequence[TimeFunction]]:
-    """Return how obstacles move, law by law, because supports do."""
+def _carried(problem: Problem) -> Sequence[Sequence[Sequence[TimeFunction]]]:
+    """Return how obstacles move, law by law and coordinate by coordinate, because supports do."""
     if not problem.supports_move:
-        return [()] * len(problem.laws)
+        return ()
     from bumpstop.carried import carried_obstacles
 
     return carried_obstacles(problem)
@@ -129,25 +131,27 @@ def forcing(problem: Problem) -> _core.Forcing:
 
 
 def _with_motions(
-    loads: _core.Forcing, moved: Sequence[tuple[int, Sequence[TimeFunction]]], duration: float
+    loads: _core.Forcing,
+    moved: Sequence[tuple[tuple[int, int], Sequence[TimeFunction]]],
+    duration: float,
 ) -> _core.Forcing:
-    """Return loads with the motions of obstacles, by the numbers of their laws."""
+    """Return loads with the motions of obstacles, by the numbers of law and coordinate."""
     from bumpstop.loads.time import Harmonic, Polynomial, TimeTable, resolved
 
     polynomials, harmonics, tables = [], [], []
-    for law, function in (
-        (law, term) for law, functions in moved for term in resolved(functions, duration)
+    for obstacle, function in (
+        (obstacle, term) for obstacle, functions in moved for term in resolved(functions, duration)
     ):
         match function:
             case Polynomial():
-                polynomials.append((law, np.array(function.coefficients)))
+                polynomials.append((obstacle, np.array(function.coefficients)))
             case Harmonic():
                 omega = 2.0 * np.pi * function.frequency
-                harmonics.append((law, omega, function.cosine, function.sine))
+                harmonics.append((obstacle, omega, function.cosine, function.sine))
             case TimeTable():
                 times, values = np.asarray(function.times), np.asarray(function.values)
                 # One that says nothing covers the run: its ends are no jumps.
-                tables.append((law, times, values, function.beyond != "zero"))
+                tables.append((obstacle, times, values, function.beyond != "zero"))
     return loads.with_motions(polynomials, harmonics, tables)
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bumpstop.arguments import FloatArray
 from bumpstop.errors import InputError
+from bumpstop.laws.coordinate import coordinates_of
 from bumpstop.loads.moving_supports import MovingSupports
 from bumpstop.loads.support_motion import SupportMotion
 from bumpstop.loads.time import resolved, scaled
@@ -139,18 +140,18 @@ def carried_field(problem: Problem, times: FloatArray, derivative: int = 0) -> F
     return total
 
 
-def carried_obstacles(problem: Problem) -> list[tuple[TimeFunction, ...]]:
-    """Return, for each law, how its obstacle moves towards the structure as its modes tell it.
+def carried_obstacles(problem: Problem) -> list[list[tuple[TimeFunction, ...]]]:
+    """Return, for each coordinate of each law, how its obstacle moves as the modes tell it.
 
     Raises
     ------
     InputError
-        If a rigid stop would have to follow supports, or a contact that rubs along their motion.
+        If a rigid stop would have to follow supports.
     """
     carriers: list[MovingSupports] = [
         load for load in problem.loads if isinstance(load, MovingSupports)
     ]
-    return [tuple(_motions(law, carriers, problem)) for law in problem.laws]
+    return [_motions(law, carriers, problem) for law in problem.laws]
 
 
 def carried_past(
@@ -180,38 +181,27 @@ def _passes(load: MovingSupports, law: Law) -> bool:
     return isinstance(load, SupportMotion) or getattr(law, "frame", "relative") == "absolute"
 
 
-def _motions(law: Law, carriers: list[MovingSupports], problem: Problem) -> Iterator[TimeFunction]:
-    model = problem.basis.model
-    for load in carriers:
-        if model is None or not _passes(load, law):
-            continue
-        field = load.field(model)
+def _motions(
+    law: Law, carriers: Sequence[MovingSupports], problem: Problem
+) -> list[tuple[TimeFunction, ...]]:
+    """Return the functions whose sums move the obstacle of a law along its coordinates."""
+    basis = problem.basis
+    passing = [load for load in carriers if _passes(load, law)]
+    if basis.model is None or not passing:
+        return []
+    along = [each.nodal_force(basis.model) for each in coordinates_of(law, basis)]
+    motions: list[list[TimeFunction]] = [[] for _ in along]
+    for load in passing:
+        field = load.field(basis.model)
         negligible = _NOTHING * float(np.abs(field).max())
-        several = getattr(law, "coordinates", ())
-        if any(abs(float(each.nodal_force(model) @ field)) > negligible for each in several):
-            what = f"cannot follow the supports that {load.name!r} moves"
-            hint = "stops around an axis do not, nor those that rub in two directions"
-            raise InputError(what, key=f"{law.table}.{law.name}", hint=hint)
-        if several:
-            continue
-        normal = float(law.coordinate.nodal_force(model) @ field)
-        sliding = _sliding(law, problem)
-        along = 0.0 if sliding is None else float(sliding @ field)
-        if abs(along) > negligible or (hasattr(law, "restitution") and abs(normal) > negligible):
-            what = f"cannot follow the supports that {load.name!r} moves"
-            hint = "rigid stops do not, nor contacts that rub along the motion"
-            raise InputError(what, key=f"{law.table}.{law.name}", hint=hint)
-        if abs(normal) > negligible:
-            for function in load.travel(problem.duration).displacement:
-                yield scaled(function, -normal)
-
-
-def _sliding(law: Law, problem: Problem) -> FloatArray | None:
-    """Return a unit force along an obstacle that rubs, (dofs,)."""
-    model = problem.basis.model
-    if getattr(law, "friction", None) is None or model is None:
-        return None
-    from bumpstop.laws.friction import sliding_coordinate
-
-    sliding = sliding_coordinate(problem.basis, law.coordinate, getattr(law, "sliding", None))
-    return sliding.nodal_force(model)
+        for direction, functions in zip(along, motions, strict=True):
+            size = float(direction @ field)
+            if abs(size) <= negligible:
+                continue
+            if hasattr(law, "restitution"):
+                what = f"cannot follow the supports that {load.name!r} moves"
+                hint = "rigid stops do not; give it a stiffness"
+                raise InputError(what, key=f"{law.table}.{law.name}", hint=hint)
+            travel = load.travel(problem.duration).displacement
+            functions.extend(scaled(function, -size) for function in travel)
+    return [tuple(functions) for functions in motions]

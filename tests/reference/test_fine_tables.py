@@ -102,7 +102,7 @@ def test_an_obstacle_that_is_told_by_a_fine_table(stiffness: float, damper: floa
     history = _core.simulate(
         _core.System(omega2, damping),
         [_core.Stop(row, -depth, stiffness, damper)],
-        still.with_motions([], [], [(0, times, walk, True)]),
+        still.with_motions([], [], [((0, 0), times, walk, True)]),
         np.zeros(3),
         np.zeros(3),
         float(times[-1]),

@@ -175,7 +175,9 @@ pub enum Error {
         time: f64,
     },
     /// What moves is not an obstacle that a motion can be given to.
-    #[error("law {law} (counted from 0) cannot be moved: there is none, or its stop is rigid")]
+    #[error(
+        "law {law} (counted from 0) cannot be moved: there is none, it has no such coordinate, or its stop is rigid"
+    )]
     Immovable {
         /// The law.
         law: usize,

@@ -1,7 +1,7 @@
 //! A problem: structure, laws, forcing, initial state and duration.
 
 use crate::error::{Error, Result, check_finite, check_length};
-use crate::forcing::Forcing;
+use crate::forcing::{Forcing, Moved};
 use crate::law::{Law, Local, project};
 use crate::system::ModalSystem;
 
@@ -51,8 +51,13 @@ impl<L: Law> Problem<L> {
         for row in laws.iter().flat_map(Law::rows) {
             check_length("a law's row", row, modes)?;
         }
-        let can_move = |law: &usize| laws.get(*law).is_some_and(|l| l.restitution().is_none());
-        if let Some(law) = forcing.moved().find(|law| !can_move(law)) {
+        let can_move = |moved: &Moved| {
+            let law = laws
+                .get(moved.law)
+                .filter(|law| law.restitution().is_none());
+            law.is_some_and(|law| moved.coordinate < law.rows().len())
+        };
+        if let Some(Moved { law, .. }) = forcing.moved().find(|moved| !can_move(moved)) {
             return Err(Error::Immovable { law });
         }
         Ok(Self {

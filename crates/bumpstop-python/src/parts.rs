@@ -4,7 +4,7 @@ use crate::core_error;
 use crate::formula::Word;
 use crate::user::{OutsideProgram, UserLaw};
 use bumpstop_core::error::Result;
-use bumpstop_core::forcing::{self, Beyond, Table};
+use bumpstop_core::forcing::{self, Beyond, Moved, Table};
 use bumpstop_core::{law, obstacle, rotation, system};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -94,6 +94,9 @@ pub struct Forcing(pub forcing::Forcing);
 
 type Column<'py> = PyReadonlyArray1<'py, f64>;
 
+/// An obstacle: the number of its law, and which of its local coordinates.
+type Obstacle = (usize, usize);
+
 #[pymethods]
 impl Forcing {
     /// Polynomials are (direction, coefficients), harmonics (omega, cosine, sine), tables
@@ -123,26 +126,27 @@ impl Forcing {
         build().map(Self).map_err(core_error)
     }
 
-    /// The same with obstacles that move, each by the number of its law: polynomials are (law,
-    /// coefficients), harmonics (law, omega, cosine, sine), tables (law, times, values, whether the
-    /// values at its ends hold beyond them).
+    /// The same with obstacles that move, each by the number of its law and of the local coordinate
+    /// that the motion is taken off: polynomials are (obstacle, coefficients), harmonics (obstacle,
+    /// omega, cosine, sine), tables (obstacle, times, values, whether the values at its ends hold
+    /// beyond them).
     fn with_motions(
         &self,
-        polynomials: Vec<(usize, Column<'_>)>,
-        harmonics: Vec<(usize, f64, f64, f64)>,
-        tables: Vec<(usize, Column<'_>, Column<'_>, bool)>,
+        polynomials: Vec<(Obstacle, Column<'_>)>,
+        harmonics: Vec<(Obstacle, f64, f64, f64)>,
+        tables: Vec<(Obstacle, Column<'_>, Column<'_>, bool)>,
     ) -> PyResult<Self> {
         let build = || {
             let mut forcing = self.0.clone();
-            for (law, coefficients) in &polynomials {
-                forcing = forcing.with_polynomial_motion(*law, values(coefficients))?;
+            for (obstacle, coefficients) in &polynomials {
+                forcing = forcing.with_polynomial_motion(moved(*obstacle), values(coefficients))?;
             }
-            for (law, omega, cosine, sine) in harmonics {
-                forcing = forcing.with_harmonic_motion(law, omega, cosine, sine)?;
+            for (obstacle, omega, cosine, sine) in harmonics {
+                forcing = forcing.with_harmonic_motion(moved(obstacle), omega, cosine, sine)?;
             }
-            for (law, times, knots, holds) in &tables {
+            for (obstacle, times, knots, holds) in &tables {
                 let table = table(times, knots, *holds)?;
-                forcing = forcing.with_table_motion(*law, table)?;
+                forcing = forcing.with_table_motion(moved(*obstacle), table)?;
             }
             Ok(forcing)
         };
@@ -155,6 +159,10 @@ impl Forcing {
         self.0.at(time, &mut forces);
         forces.into_pyarray(py)
     }
+}
+
+fn moved((law, coordinate): Obstacle) -> Moved {
+    Moved { law, coordinate }
 }
 
 fn table(times: &Column<'_>, knots: &Column<'_>, holds: bool) -> Result<Table> {

@@ -70,6 +70,12 @@ class CircleStop(StopAroundAxis):
     tangential_damping
         Damping in N s/m of a contact that sticks, positive; where left out critical damping of
         the sticking contact, see `stick_damping`.
+    motion
+        How the obstacle moves: for some of ``"dx"``, ``"dy"`` and ``"dz"`` the functions of time
+        whose sum moves it along that global axis, in m.
+    frame
+        ``"relative"`` to supports that move, which then carry the obstacle, or ``"absolute"``: it
+        stands still on the ground.
 
     Raises
     ------

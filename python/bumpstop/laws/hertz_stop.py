@@ -145,6 +145,11 @@ class HertzStop(Contact):
         """The functions of time whose sum moves the obstacle."""
         return self.motion  # type: ignore[return-value]  # a tuple once it has been checked
 
+    @property
+    def motions(self) -> tuple[tuple[TimeFunction, ...], ...]:
+        """The same for each of its coordinates: along the normal alone."""
+        return (self.functions,)
+
     def core(self, basis: ModalBasis) -> _core.HertzStop:
         """Return the stop as the core sees it; see `row`."""
         from bumpstop import _core

@@ -38,7 +38,7 @@ class PolarStop(StopAroundAxis):
     ----------
     name, node, axis, roll, other, centre, stiffness, damping
         As in a `CircleStop`; angles count from the first direction of the plane about the axis.
-    friction, tangential_stiffness, tangential_damping
+    friction, tangential_stiffness, tangential_damping, motion, frame
         As in a `CircleStop`.
     profile
         Corners (angle, radius), in rad and m: three at least, the angles increasing over less

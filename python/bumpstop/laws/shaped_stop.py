@@ -6,18 +6,20 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, name, not_negative, positive
+from bumpstop.arguments import FloatArray, Vector, name, not_negative, one_of, positive
 from bumpstop.errors import InputError
 from bumpstop.laws.coordinate import Coordinate
 from bumpstop.laws.friction import Friction
+from bumpstop.laws.obstacle_motion import along_axes, along_directions
 from bumpstop.projection import TRANSLATIONS, direction_row
 
 if TYPE_CHECKING:
     from bumpstop import _core
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
 
 __all__ = ["ShapedStop"]
@@ -49,11 +51,16 @@ class ShapedStop(ABC):
     friction: float | Mapping[str, float] | Friction | None = None
     tangential_stiffness: float | None = None
     tangential_damping: float | None = None
+    motion: Mapping[str, TimeFunction | Sequence[TimeFunction]] | None = None
+    frame: str = "relative"
 
     def __post_init__(self) -> None:
         name("name", self.name)
         object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
         object.__setattr__(self, "damping", not_negative("damping", self.damping))
+        one_of("frame", self.frame, ("relative", "absolute"))
+        if self.motion is not None:
+            object.__setattr__(self, "motion", along_axes(self.motion))
         assert self.coordinate  # checks the nodes
         self._check_friction()
 
@@ -81,8 +88,22 @@ class ShapedStop(ABC):
     def coordinates(self) -> tuple[Coordinate, ...]:
         """The coordinates that it acts along: two in the plane and, with friction, the axis."""
         node, other = self.coordinate.node, self.coordinate.other
-        directions = self.axes if self.friction is not None else self.axes[:2]
-        return tuple(Coordinate(node, _plain(each), other) for each in directions)
+        return tuple(Coordinate(node, _plain(each), other) for each in self._directions)
+
+    @property
+    def functions(self) -> tuple[TimeFunction, ...]:
+        """All functions of time that move the obstacle."""
+        return tuple(function for along in self.motions for function in along)
+
+    @cached_property
+    def motions(self) -> tuple[tuple[TimeFunction, ...], ...]:
+        """For each of its coordinates the functions of time whose sum moves the obstacle."""
+        motion: Any = self.motion or {}
+        return along_directions(motion, self._directions)
+
+    @property
+    def _directions(self) -> FloatArray:
+        return self.axes if self.friction is not None else self.axes[:2]
 
     def rows(self, basis: ModalBasis) -> FloatArray:
         """Return the motion along each of its coordinates by the modes, (coordinates, N).
@@ -134,8 +155,10 @@ class ShapedStop(ABC):
         return seen
 
     def gap_at(self, basis: ModalBasis, displacement: FloatArray) -> float:
-        """Return the distance in m at a modal displacement, (N,)."""
-        return float(self.distances(self.places(basis, displacement[np.newaxis]))[0])
+        """Return the distance in m at a modal displacement (N,) and t = 0."""
+        start = np.zeros(1)
+        moved = [sum(float(each.at(start)[0]) for each in along) for along in self.motions[:2]]
+        return float(self.distances(self.places(basis, displacement[np.newaxis]) - moved)[0])
 
     def sliding_speeds(
         self, basis: ModalBasis, displacement: FloatArray, velocity: FloatArray

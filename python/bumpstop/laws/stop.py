@@ -121,6 +121,11 @@ class Stop(Contact):
         return self.motion  # type: ignore[return-value]  # a tuple once it has been checked
 
     @property
+    def motions(self) -> tuple[tuple[TimeFunction, ...], ...]:
+        """The same for each of its coordinates: along the normal alone."""
+        return (self.functions,)
+
+    @property
     def internal_variables(self) -> tuple[str, ...]:
         """What it remembers: where its slider stands, with friction."""
         return () if self.friction is None else ("anchor",)

@@ -19,7 +19,7 @@ from bumpstop.errors import InputError
 from bumpstop.loads.sampling import sampled
 from bumpstop.loads.time import HIGHEST_DEGREE, Harmonic, Polynomial, Term, TimeTable
 
-__all__ = ["Cubics", "Travel"]
+__all__ = ["Cubics", "Travel", "rate"]
 
 _TOLERANCE = 1e-7
 """How far straight lines stray from cubics, relative to the largest value."""
@@ -131,8 +131,8 @@ class Travel:
                 what = "must be of harmonics and polynomials where it is a displacement"
                 hint = "give the acceleration of what is told by straight lines"
                 raise InputError(what, key="time", value=term.words, hint=hint)
-        speeds = tuple(map(_derivative, terms))
-        return cls(tuple(terms), speeds, tuple(map(_derivative, speeds)))
+        speeds = tuple(map(rate, terms))
+        return cls(tuple(terms), speeds, tuple(map(rate, speeds)))
 
     @property
     def derivatives(self) -> tuple[tuple[_Piece, ...], ...]:
@@ -162,10 +162,24 @@ def _wave_integral(wave: Harmonic) -> tuple[Harmonic, float]:
     return integral, wave.sine / omega
 
 
-def _derivative(term: Term) -> Harmonic | Polynomial:
+def rate(term: Term) -> Term:
+    """Return the derivative of a function; that of straight lines jumps where they meet.
+
+    Examples
+    --------
+    >>> rate(TimeTable([0.0, 1.0, 3.0], [0.0, 2.0, 0.0])).at([0.5, 1.0, 2.0]).tolist()
+    [2.0, -1.0, -1.0]
+    """
     if isinstance(term, Harmonic):
         omega = 2.0 * math.pi * term.frequency
         return Harmonic(term.frequency, cosine=omega * term.sine, sine=-omega * term.cosine)
-    assert isinstance(term, Polynomial)  # tables have been refused
+    if isinstance(term, TimeTable):
+        return _slopes(term)
     coefficients = [n * c for n, c in enumerate(term.coefficients)][1:]
     return Polynomial(coefficients or [0.0])
+
+
+def _slopes(table: TimeTable) -> TimeTable:
+    times, values = np.asarray(table.times), np.asarray(table.values)
+    slopes = np.diff(values) / np.diff(times)
+    return TimeTable(np.repeat(times, 2)[1:-1], np.repeat(slopes, 2), beyond="zero")

@@ -10,9 +10,10 @@ import numpy as np
 
 from bumpstop.arguments import FloatArray, count, listed, not_negative, one_of, pair, refuse_twins
 from bumpstop.errors import InputError
+from bumpstop.post.at_obstacle import motion_at_obstacle
 from bumpstop.post.contacts import integrals_of
 from bumpstop.post.of_run import of_run
-from bumpstop.post.sliding import motion_at_obstacle, sliding_speed
+from bumpstop.post.sliding import sliding_speed
 from bumpstop.post.spans import spans_within
 from bumpstop.post.wear import check_wear, sliding_spans, time_window, wear_work
 from bumpstop.projection import TRANSLATIONS

@@ -8,6 +8,7 @@ import numpy as np
 
 from bumpstop.errors import InputError
 from bumpstop.laws.around_axis import StopAroundAxis
+from bumpstop.post.at_obstacle import places_at_obstacle
 from bumpstop.projection import TRANSLATIONS
 from bumpstop.report.curves import contact_spans
 from bumpstop.report.followed import known_basis
@@ -173,7 +174,7 @@ def _round(
 ) -> dict[str, Any]:
     """Return an obstacle about an axis as seen from its node at rest, and the force in space."""
     basis = known_basis(response)
-    places = law.places(basis, response.motion(0, times))
+    places = places_at_obstacle(response, law, times)
     origin = law.origin(basis)
     outline = _near(law, places)
     forces = response.history.law_forces(response.law_index(law.name), times)

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bumpstop.post.at_obstacle import places_at_obstacle
 from bumpstop.report.curves import MOST_POINTS, instants, thin
-from bumpstop.report.followed import known_basis
 from bumpstop.report.palette import LIGHT
 from bumpstop.report.plotting import Axis, layout_of, line_trace
 from bumpstop.report.scales import scale_for
@@ -31,7 +31,7 @@ def orbit(response: Response, stop: StopAroundAxis) -> dict[str, Any]:
     Where the node is is told from the obstacle's centre, along the two directions of the plane.
     """
     times = instants(response)
-    places = stop.places(known_basis(response), response.motion(0, times))
+    places = places_at_obstacle(response, stop, times)
     outline = stop.outline()
     kept = np.union1d(*(thin(each, at_most=MOST_POINTS // 2) for each in places.T))
     scale = scale_for("m", np.concatenate([places, outline]))

@@ -1,5 +1,6 @@
 //! A force that oscillates at one frequency.
 
+use super::Moved;
 use crate::error::{Error, Result, check_finite};
 use crate::number::{Complex, Number};
 
@@ -10,8 +11,8 @@ pub struct Harmonic {
     pub omega: f64,
     /// One for each mode.
     pub amplitude: Vec<Complex<f64>>,
-    /// Amplitudes in m of the obstacles that it moves, by the numbers of their laws.
-    pub motions: Vec<(usize, Complex<f64>)>,
+    /// Amplitudes in m of the obstacles that it moves.
+    pub motions: Vec<(Moved, Complex<f64>)>,
 }
 
 impl Harmonic {

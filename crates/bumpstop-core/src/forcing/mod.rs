@@ -14,6 +14,7 @@ mod motion;
 mod scaled;
 
 pub use harmonic::Harmonic;
+pub use motion::Moved;
 pub use table::{Beyond, Table};
 
 use crate::error::{Error, Result, check_finite, check_length};
@@ -27,8 +28,8 @@ pub const HIGHEST_DEGREE: usize = 5;
 pub struct Channel {
     /// Modal forces at the value one, in N per unit modal displacement.
     pub direction: Vec<f64>,
-    /// The law whose obstacle it moves, by number; the direction is zero then.
-    pub moves: Option<usize>,
+    /// What it moves, if that is an obstacle; the direction is zero then.
+    pub moves: Option<Moved>,
     /// How it changes.
     pub history: History,
 }

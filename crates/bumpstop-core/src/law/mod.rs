@@ -359,6 +359,11 @@ pub trait Law: Clone + Send + Sync {
     fn stiffest(&self) -> Piece;
 }
 
+/// Power of a local force at a local velocity, in W.
+pub(crate) fn power(force: &Local<f64>, velocity: &Local<f64>) -> f64 {
+    force.iter().zip(velocity).map(|(f, v)| f * v).sum()
+}
+
 /// Projects modal to local coordinates.
 #[inline(always)]
 pub fn project<L: Law>(law: &L, modal: &[f64]) -> Local<f64> {

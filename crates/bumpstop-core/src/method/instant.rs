@@ -60,9 +60,10 @@ fn seen_by<L: Law>(problem: &Problem<L>, law: usize, moment: Moment<'_>) -> Loca
         }
     }
     if problem.forcing.varies() {
+        let size = |motion: &Local<f64>| motion.iter().map(|x| x.abs()).sum::<f64>();
         let [moved, rate, ..] = problem.forcing.motion(law, moment.time);
-        motion.zero[0] += ROUNDING * moved.abs();
-        motion.zero[1] += ROUNDING * rate.abs();
+        motion.zero[0] += ROUNDING * size(&moved);
+        motion.zero[1] += ROUNDING * size(&rate);
     }
     motion
 }
@@ -167,7 +168,9 @@ fn local_motion<L: Law>(
         if forcing.varies() {
             let moved = forcing.motion(index, moment.time);
             for (local, moved) in motion.iter_mut().zip(moved) {
-                local[0] -= moved;
+                for (local, moved) in local.iter_mut().zip(moved) {
+                    *local -= moved;
+                }
             }
         }
         jerks.add_law(law, &force_rate(law, state, motion));
@@ -189,8 +192,11 @@ fn local_motion<L: Law>(
     }
     if forcing.varies() {
         let moved = forcing.motion(of, moment.time);
-        let zero = |x: f64| ROUNDING * x.abs();
-        motion.add(0, moved.map(|x| -x), moved.map(zero));
+        for coordinate in 0..COORDINATES {
+            let along = moved.map(|order| order[coordinate]);
+            let zero = along.map(|x| ROUNDING * x.abs());
+            motion.add(coordinate, along.map(|x| -x), zero);
+        }
     }
     motion
 }

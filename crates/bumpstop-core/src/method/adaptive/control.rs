@@ -101,15 +101,15 @@ impl Control {
         }
     }
 
-    /// Takes the measure of a step that ends in given numbers.
+    /// Takes the measure of a step that ends at a time in given numbers.
     pub(super) fn measure<L: Law>(
         &mut self,
         stages: &[Vec<f64>],
-        end: &[f64],
+        (time, end): (f64, &[f64]),
         equations: &Equations<'_, L>,
     ) {
         let layout = &equations.layout;
-        layout.memory_sizes(equations.problem, end, &mut self.floors[1]);
+        equations.memory_sizes(time, end, &mut self.floors[1]);
         self.set_sizes(end, stages, layout);
         self.set_scales(layout);
     }

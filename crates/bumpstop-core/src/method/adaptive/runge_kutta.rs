@@ -46,8 +46,8 @@ impl RungeKutta {
     }
 
     /// The estimate of the error over what is allowed.
-    fn error<L: Law>(&mut self, h: f64, equations: &Equations<'_, L>) -> f64 {
-        self.control.measure(&self.stages, &self.end, equations);
+    fn error<L: Law>(&mut self, time: f64, h: f64, equations: &Equations<'_, L>) -> f64 {
+        (self.control).measure(&self.stages, (time + h, &self.end), equations);
         let mut largest = [0.0; 2];
         for (largest, weights) in largest.iter_mut().zip(self.pair.errors) {
             self.errors.fill(0.0);
@@ -91,7 +91,7 @@ impl<L: Law> Stepping<L> for RungeKutta {
         self.end.copy_from_slice(&self.start);
         add_weighted(&mut self.end, h, pair.b, &self.stages);
         equations.rates(time + h, &self.end, &mut self.stages[self.last]);
-        let error = self.error(h, equations);
+        let error = self.error(time, h, equations);
         self.control.judge(h, error, &self.end)
     }
 

@@ -3,7 +3,7 @@
 use super::StepRecord;
 use crate::energy::{self, Growth, Ledger};
 use crate::error::{Error, Result};
-use crate::law::{Law, Local, State};
+use crate::law::{Law, Local, State, power};
 use crate::problem::Problem;
 use crate::system::Coupling;
 
@@ -138,7 +138,7 @@ impl Powers {
         if problem.forcing.moved().next().is_some() {
             for (number, ((law, state), [position, velocity])) in laws().enumerate() {
                 let [_, rate, ..] = problem.forcing.motion(number, time);
-                obstacles += law.force(*state, position, velocity)[0] * rate;
+                obstacles += power(&law.force(*state, position, velocity), &rate);
             }
         }
         let taken = |matrix: Option<&Coupling>, motion: &[f64]| {

@@ -20,6 +20,7 @@ use super::singles::{Single, Subject};
 use super::span::{NearlySlow, Span};
 use super::view::View;
 use crate::error::Result;
+use crate::forcing::Moved;
 use crate::law::{Law, State};
 use crate::number::{Block, Complex, Instructions, LANES, Lanes, Number};
 use crate::problem::Problem;
@@ -155,16 +156,19 @@ impl Spectrum {
         let mut views = std::mem::take(&mut spectrum.views);
         let mut count = 0;
         for (number, law) in problem.laws.iter().enumerate() {
-            let first = count;
-            for row in law.rows() {
+            for (coordinate, row) in law.rows().iter().enumerate() {
                 if views.len() == count {
                     views.push(View::default());
                 }
                 views[count].set::<I>(&spectrum, row, &mut bench.combined);
+                if let Some(response) = &spectrum.response {
+                    let moved = Moved {
+                        law: number,
+                        coordinate,
+                    };
+                    views[count].subtract_motion(response, &problem.forcing, moved);
+                }
                 count += 1;
-            }
-            if let Some(response) = &spectrum.response {
-                views[first].subtract_motion(response, &problem.forcing, number);
             }
         }
         views.truncate(count);

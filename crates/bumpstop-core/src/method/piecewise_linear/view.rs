@@ -5,7 +5,7 @@ use super::response::Response;
 use super::rows::{ComplexBlock, entry, set_entry};
 use super::singles::Subject;
 use super::spectrum::Spectrum;
-use crate::forcing::Forcing;
+use crate::forcing::{Forcing, Moved};
 use crate::number::{Complex, Instructions, Lanes, Number};
 use std::borrow::Cow;
 
@@ -121,14 +121,14 @@ impl View {
         }
     }
 
-    /// Takes off how far the obstacle of a law has moved.
-    pub(crate) fn subtract_motion(&mut self, response: &Response, forcing: &Forcing, law: usize) {
-        for (link, _) in response.motions.iter().filter(|(_, moved)| *moved == law) {
+    /// Takes off how far an obstacle has moved.
+    pub(crate) fn subtract_motion(&mut self, response: &Response, forcing: &Forcing, of: Moved) {
+        for (link, _) in response.motions.iter().filter(|(_, moved)| *moved == of) {
             self.links[*link] -= 1.0;
         }
         for (number, harmonic) in forcing.harmonics().iter().enumerate() {
             let at = response.at + number;
-            for (_, motion) in harmonic.motions.iter().filter(|(moved, _)| *moved == law) {
+            for (_, motion) in harmonic.motions.iter().filter(|(moved, _)| *moved == of) {
                 let seen = entry(&self.exponents, at) - *motion;
                 set_entry(&mut self.exponents, at, seen);
             }

@@ -13,7 +13,7 @@ use super::signal::Signal;
 use super::spectrum::Spectrum;
 use super::view::View;
 use crate::eigen::symmetric_eigen;
-use crate::forcing::Forcing;
+use crate::forcing::{Forcing, Moved};
 use crate::law::{Affine, COORDINATES, Law, Piece, Power};
 use crate::number::{Complex, Instructions};
 use crate::problem::Problem;
@@ -384,18 +384,25 @@ impl Account<'_> {
         };
         let state = self.phases.states(self.phase)[law];
         let piece = problem.laws[law].piece(state).filter(Piece::acts);
-        let Some(piece) = piece.filter(|_| problem.forcing.moved().any(|moved| moved == law))
-        else {
+        let Some(piece) = piece else {
             return 0.0;
         };
-        let mut force = Affine::ZERO;
-        force.constant = piece.constant[0];
-        force.position = piece.stiffness[0].map(|k| -k);
-        force.velocity = piece.damping[0].map(|c| -c);
-        let force = self.signal::<I>(views, &force);
-        let rate = response.obstacle_rate(&problem.forcing, law, self.phases, self.phase);
-        let force = force.factor(self.phases, self.phase);
-        self.products.integral::<I>(&force, &rate)
+        let mut work = 0.0;
+        for coordinate in 0..problem.laws[law].rows().len() {
+            let along = Moved { law, coordinate };
+            if !problem.forcing.moved().any(|moved| moved == along) {
+                continue;
+            }
+            let mut force = Affine::ZERO;
+            force.constant = piece.constant[coordinate];
+            force.position = piece.stiffness[coordinate].map(|k| -k);
+            force.velocity = piece.damping[coordinate].map(|c| -c);
+            let force = self.signal::<I>(views, &force);
+            let rate = response.obstacle_rate(&problem.forcing, along, self.phases, self.phase);
+            let force = force.factor(self.phases, self.phase);
+            work += self.products.integral::<I>(&force, &rate);
+        }
+        work
     }
 
     #[inline(always)]

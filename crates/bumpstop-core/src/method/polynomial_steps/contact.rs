@@ -157,7 +157,10 @@ impl<'a, L: Law> ContactReader<'a, L> {
         let law = &self.problem.laws[self.law];
         let mut acceleration = project(law, &whole);
         if self.problem.forcing.varies() {
-            acceleration[0] -= self.problem.forcing.motion(self.law, time)[2];
+            let moved = self.problem.forcing.motion(self.law, time)[2];
+            for (a, moved) in acceleration.iter_mut().zip(moved) {
+                *a -= moved;
+            }
         }
         push_rate(law, states[self.law], [position, velocity, acceleration])
     }

@@ -6,7 +6,7 @@
 use super::loads::Loads;
 use super::slopes::slopes;
 use crate::energy::{self, Ledger};
-use crate::law::{Law, Local, Piece, State, project};
+use crate::law::{Law, Local, Piece, State, power, project};
 use crate::method::piecewise_linear::Works;
 use crate::problem::Problem;
 use crate::rotation::Turning;
@@ -104,22 +104,6 @@ impl Layout {
     pub(crate) fn remember(&self, law: usize, state: State, numbers: &mut [f64]) {
         if let Some(at) = self.memories[law] {
             numbers[at..at + MEMORY].copy_from_slice(&state.memory);
-        }
-    }
-
-    /// What errors of each memory are measured by besides its own size.
-    pub(crate) fn memory_sizes<L: Law>(
-        &self,
-        problem: &Problem<L>,
-        numbers: &[f64],
-        to: &mut [f64],
-    ) {
-        for (law, at) in problem.laws.iter().zip(&self.memories) {
-            if let Some(at) = at {
-                let position = project(law, self.motion(numbers)[0]);
-                let sizes = law.memory_sizes(&position);
-                to[at - 2 * self.modes..][..MEMORY].copy_from_slice(&sizes);
-            }
         }
     }
 
@@ -224,18 +208,32 @@ impl<'a, L: Law> Equations<'a, L> {
         }));
     }
 
-    /// Local position and velocity of a law, from its obstacle, and the speed of that.
-    fn local(&self, law: usize, time: f64, [q, v]: [&[f64]; 2]) -> (Local<f64>, Local<f64>, f64) {
+    /// Local position and velocity of a law, from its obstacle, and the velocity of that.
+    fn local(&self, law: usize, time: f64, [q, v]: [&[f64]; 2]) -> [Local<f64>; 3] {
         let which = &self.problem.laws[law];
         let (mut position, mut velocity) = (project(which, q), project(which, v));
-        let mut speed = 0.0;
+        let mut speed = Local::default();
         if self.moves {
             let moved;
             [moved, speed] = self.loads.motion(law, time);
-            position[0] -= moved;
-            velocity[0] -= speed;
+            for (c, position) in position.iter_mut().enumerate() {
+                *position -= moved[c];
+                velocity[c] -= speed[c];
+            }
         }
-        (position, velocity, speed)
+        [position, velocity, speed]
+    }
+
+    /// What errors of each memory are measured by besides its own size, at a time.
+    pub(crate) fn memory_sizes(&self, time: f64, numbers: &[f64], to: &mut [f64]) {
+        let layout = &self.layout;
+        for (index, law) in self.problem.laws.iter().enumerate() {
+            if let Some(at) = layout.memories[index] {
+                let [position, ..] = self.local(index, time, layout.motion(numbers));
+                let sizes = law.memory_sizes(&position);
+                to[at - 2 * layout.modes..][..MEMORY].copy_from_slice(&sizes);
+            }
+        }
     }
 
     /// The rates of the numbers at a time.
@@ -259,7 +257,7 @@ impl<'a, L: Law> Equations<'a, L> {
         self.add_structure([q, v], accelerations, works);
         self.add_rotations(time, [q, v], accelerations, works);
         for (index, law) in self.problem.laws.iter().enumerate() {
-            let (position, velocity, speed) = self.local(index, time, [q, v]);
+            let [position, velocity, speed] = self.local(index, time, [q, v]);
             let state = layout.state(index, self.states[index], numbers);
             let force = match &self.pieces[index] {
                 Some(piece) => piece.force(&position, &velocity),
@@ -270,7 +268,7 @@ impl<'a, L: Law> Equations<'a, L> {
                     *a += r * force;
                 }
             }
-            works[OBSTACLES] += force[0] * speed;
+            works[OBSTACLES] += power(&force, &speed);
             works[WORKS + index] = law.dissipated_power(state, &position, &velocity);
             if let Some(at) = layout.memories[index] {
                 let rates = law.memory_rates(state, &position, &velocity);
@@ -291,7 +289,7 @@ impl<'a, L: Law> Equations<'a, L> {
             sums[1] += damping;
         }
         for (index, law) in self.problem.laws.iter().enumerate() {
-            let (position, velocity, _) = self.local(index, time, motion);
+            let [position, velocity, _] = self.local(index, time, motion);
             let state = self.layout.state(index, self.states[index], numbers);
             let answers = slopes(law, state, [position, velocity]);
             let length = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -3,7 +3,8 @@
 //! Knots are ends of steps, and between them each table is one line: a stage at the end of a step
 //! sees that line, not what begins there.
 
-use crate::forcing::{Forcing, Onset};
+use crate::forcing::{Forcing, Moved, Onset};
+use crate::law::Local;
 
 /// The loads of one stretch of time.
 #[derive(Debug)]
@@ -54,21 +55,21 @@ impl<'a> Loads<'a> {
         }
     }
 
-    /// How far the obstacle of a law has moved, and how fast it moves.
-    pub(crate) fn motion(&self, law: usize, time: f64) -> [f64; 2] {
-        let mut motion = [0.0; 2];
+    /// How far the obstacle of a law has moved along each local coordinate, and how fast it moves.
+    pub(crate) fn motion(&self, law: usize, time: f64) -> [Local<f64>; 2] {
+        let mut motion = [Local::default(); 2];
         for (number, channel) in self.forcing.channels().iter().enumerate() {
-            if channel.moves == Some(law) {
+            if let Some(moved) = channel.moves.filter(|moved| moved.law == law) {
                 let [value, rate] = self.channel(number, time);
-                motion[0] += value;
-                motion[1] += rate;
+                motion[0][moved.coordinate] += value;
+                motion[1][moved.coordinate] += rate;
             }
         }
         for harmonic in self.forcing.harmonics() {
-            for (_, amplitude) in harmonic.motions.iter().filter(|(moved, _)| *moved == law) {
+            for (moved, amplitude) in harmonic.motions.iter().filter(|(m, _)| m.law == law) {
                 let turned = *amplitude * harmonic.unit(time);
-                motion[0] += turned.re;
-                motion[1] -= harmonic.omega * turned.im;
+                motion[0][moved.coordinate] += turned.re;
+                motion[1][moved.coordinate] -= harmonic.omega * turned.im;
             }
         }
         motion
@@ -76,11 +77,11 @@ impl<'a> Loads<'a> {
 
     /// The derivatives over their factorials, times powers of h, of an obstacle's motion at a
     /// time: its Taylor coefficients in parts of a step.
-    pub(crate) fn series(&self, law: usize, time: f64, h: f64, to: &mut [f64]) {
+    pub(crate) fn series(&self, moved: Moved, time: f64, h: f64, to: &mut [f64]) {
         to.fill(0.0);
         let since = time - self.start;
         for (number, channel) in self.forcing.channels().iter().enumerate() {
-            if channel.moves == Some(law) {
+            if channel.moves == Some(moved) {
                 let mut shifted = self.coefficients(number).to_vec();
                 taylor_shift(&mut shifted, since);
                 let mut power = 1.0;
@@ -91,7 +92,7 @@ impl<'a> Loads<'a> {
             }
         }
         for harmonic in self.forcing.harmonics() {
-            for (_, amplitude) in harmonic.motions.iter().filter(|(moved, _)| *moved == law) {
+            for (_, amplitude) in harmonic.motions.iter().filter(|(m, _)| *m == moved) {
                 let mut turning = *amplitude * harmonic.unit(time);
                 for (power, to) in to.iter_mut().enumerate() {
                     *to += turning.re;
@@ -153,20 +154,24 @@ mod tests {
 
     #[test]
     fn the_series_of_an_obstacle_is_its_motion() {
+        let moved = Moved {
+            law: 1,
+            coordinate: 2,
+        };
         let forcing = (Forcing::constant(vec![0.0]).unwrap())
-            .with_polynomial_motion(1, vec![1.0, -2.0, 0.5, 0.25])
-            .and_then(|f| f.with_harmonic_motion(1, 3.0, 0.1, 0.2))
+            .with_polynomial_motion(moved, vec![1.0, -2.0, 0.5, 0.25])
+            .and_then(|f| f.with_harmonic_motion(moved, 3.0, 0.1, 0.2))
             .unwrap();
         let mut loads = Loads::new(&forcing);
         loads.turn(0.3);
         let (from, h) = (0.4, 0.1);
         let mut series = [0.0; 11];
-        loads.series(1, from, h, &mut series);
+        loads.series(moved, from, h, &mut series);
         for theta in [0.0, 0.4, 1.0] {
             let found = series.iter().rev().fold(0.0, |sum, c| sum * theta + c);
-            let [value, rate, ..] = forcing.motion(1, from + theta * h);
+            let [value, rate, ..] = forcing.motion(1, from + theta * h).map(|order| order[2]);
             assert!((found - value).abs() < 1e-14);
-            let [other, other_rate] = loads.motion(1, from + theta * h);
+            let [other, other_rate] = loads.motion(1, from + theta * h).map(|order| order[2]);
             assert!((other - value).abs() < 1e-14 && (other_rate - rate).abs() < 1e-14);
         }
     }

@@ -8,6 +8,7 @@ use super::curved::Curve;
 use super::dense::Dense;
 use super::equations::Layout;
 use super::loads::Loads;
+use crate::forcing::Moved;
 use crate::law::{Affine, COORDINATES, Law, Local, State};
 use crate::problem::Problem;
 
@@ -40,12 +41,13 @@ pub(crate) struct Step<'a> {
     pub rounded: &'a [f64],
 }
 
-/// The polynomials that the dense output is made of, and the laws whose obstacles move.
+/// The polynomials that the dense output is made of, and how obstacles move.
 #[derive(Debug)]
 pub(crate) struct Watch {
     /// For each degree that is needed: that of the dense output, and the highest.
     bases: [Vec<Bernstein>; 2],
-    moves: Vec<bool>,
+    /// For each law the coordinates along which its obstacle moves.
+    moves: Vec<Vec<Moved>>,
 }
 
 /// The local motion of a law along a step.
@@ -67,9 +69,12 @@ impl Watch {
                 .map(|k| Bernstein::product(highest, k.div_ceil(2), k / 2))
                 .collect()
         };
-        let mut moves = vec![false; problem.laws.len()];
-        for law in problem.forcing.moved() {
-            moves[law] = true;
+        let mut moves = vec![Vec::new(); problem.laws.len()];
+        for moved in problem.forcing.moved() {
+            let known: &mut Vec<Moved> = &mut moves[moved.law];
+            if !known.contains(&moved) {
+                known.push(moved);
+            }
         }
         Self {
             bases: [basis(degree), basis(MOST)],
@@ -141,7 +146,7 @@ impl Watch {
         loads: &Loads<'_>,
         step: Step<'_>,
     ) -> Track {
-        let moves = self.moves[index];
+        let moves = !self.moves[index].is_empty();
         let basis = &self.bases[usize::from(moves)];
         let zero = Bernstein::constant(if moves { MOST } else { basis.len() - 1 }, 0.0);
         let mut track = Track {
@@ -181,14 +186,14 @@ impl Watch {
                 }
             }
         }
-        if moves {
+        for moved in &self.moves[index] {
             let mut series = [0.0; MOST + 1];
-            loads.series(index, step.time, step.h, &mut series);
-            let moved = Bernstein::of_powers(&series);
-            track.position[0].add(-1.0, &moved);
-            track.velocity[0].add(-1.0 / step.h, &moved.derivative());
-            track.sizes[0][0] += moved.size();
-            track.sizes[1][0] += moved.derivative().size() / step.h;
+            loads.series(*moved, step.time, step.h, &mut series);
+            let (along, c) = (Bernstein::of_powers(&series), moved.coordinate);
+            track.position[c].add(-1.0, &along);
+            track.velocity[c].add(-1.0 / step.h, &along.derivative());
+            track.sizes[0][c] += along.size();
+            track.sizes[1][c] += along.derivative().size() / step.h;
         }
         // The instant is known to rounding, too: a position is known no better than how far the
         // motion goes in that.

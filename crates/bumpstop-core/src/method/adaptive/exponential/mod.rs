@@ -150,7 +150,7 @@ impl Exponential {
 
     /// The estimate of the error over what is allowed.
     fn error<L: Law>(&mut self, time: f64, h: f64, equations: &mut Equations<'_, L>) -> f64 {
-        self.control.measure(&self.stages, &self.end, equations);
+        (self.control).measure(&self.stages, (time + h, &self.end), equations);
         let middle = self.difference([0.0, -0.5, -0.5, 0.0, 1.0].map(|weight| 4.0 * weight));
         self.look_between(time, h, equations);
         let between = self.difference([0.0, 0.0, 16.0 / 3.0, 0.0, 0.0]);

@@ -4,7 +4,7 @@
 //! A spring and damper behind an obstacle that has moved by w makes the force `-k (x - w) - c (x' -
 //! w')`: beside that of a still one, `k w + c w'`.
 
-use crate::forcing::Channel;
+use crate::forcing::{Channel, Moved};
 use crate::law::{Law, Piece, State};
 use crate::number::Complex;
 use crate::problem::Problem;
@@ -39,8 +39,8 @@ impl Drives {
         }
         let harmonics = forcing.harmonics().iter().map(|harmonic| {
             let mut amplitudes = harmonic.amplitude.clone();
-            for (law, motion) in &harmonic.motions {
-                let [spring, damper] = behind(problem, states, *law);
+            for (moved, motion) in &harmonic.motions {
+                let [spring, damper] = behind(problem, states, *moved);
                 let turn = Complex::new(0.0, harmonic.omega);
                 for (to, (k, c)) in amplitudes.iter_mut().zip(spring.iter().zip(&damper)) {
                     *to += *motion * turn.scale(*c).plus(*k);
@@ -61,23 +61,23 @@ fn of_channel<L: Law>(
     states: &[State],
     channel: &Channel,
 ) -> Vec<(usize, Vec<f64>)> {
-    let Some(law) = channel.moves else {
+    let Some(moved) = channel.moves else {
         return vec![(0, channel.direction.clone())];
     };
-    let pushed = behind(problem, states, law).into_iter().enumerate();
+    let pushed = behind(problem, states, moved).into_iter().enumerate();
     let felt = |(_, direction): &(usize, Vec<f64>)| direction.iter().any(|p| *p != 0.0);
     pushed.filter(felt).collect()
 }
 
 /// Forces on the modes by a law whose obstacle has moved by one, and moves with a speed of one.
-fn behind<L: Law>(problem: &Problem<L>, states: &[State], law: usize) -> [Vec<f64>; 2] {
-    let which = &problem.laws[law];
-    let piece = which.piece(states[law]).unwrap_or(Piece::FREE);
+fn behind<L: Law>(problem: &Problem<L>, states: &[State], moved: Moved) -> [Vec<f64>; 2] {
+    let which = &problem.laws[moved.law];
+    let piece = which.piece(states[moved.law]).unwrap_or(Piece::FREE);
     [piece.stiffness, piece.damping].map(|matrix| {
         let mut force = vec![0.0; problem.system.modes()];
         for (row, factors) in which.rows().iter().zip(matrix) {
             for (force, factor) in force.iter_mut().zip(row) {
-                *force += factor * factors[0];
+                *force += factor * factors[moved.coordinate];
             }
         }
         force

@@ -38,7 +38,7 @@ use super::polynomial::of_derivative;
 use super::product::Factor;
 use super::rows::{ComplexBlock, set_entry};
 use super::spectrum::Spectrum;
-use crate::forcing::{Forcing, Onset};
+use crate::forcing::{Forcing, Moved, Onset};
 use crate::number::Complex;
 use making::Making;
 
@@ -72,8 +72,8 @@ pub(crate) struct Response {
     pub followers: Vec<Follower>,
     /// What is followed.
     pub drives: Drives,
-    /// Links that move no mode: the motions of obstacles, with the numbers of their laws.
-    pub motions: Vec<(usize, usize)>,
+    /// Links that move no mode: the motions of obstacles.
+    pub motions: Vec<(usize, Moved)>,
 }
 
 impl Response {
@@ -104,8 +104,8 @@ impl Response {
 
     fn add_motions(&mut self, forcing: &Forcing) {
         for (channel, load) in forcing.channels().iter().enumerate() {
-            if let Some(law) = load.moves {
-                self.motions.push((self.links.len(), law));
+            if let Some(moved) = load.moves {
+                self.motions.push((self.links.len(), moved));
                 self.links.push(Link {
                     channel,
                     pushed: 0,
@@ -116,11 +116,11 @@ impl Response {
         }
     }
 
-    /// The speed of a law's obstacle during a phase.
+    /// The speed of an obstacle during a phase.
     pub(crate) fn obstacle_rate(
         &self,
         forcing: &Forcing,
-        law: usize,
+        of: Moved,
         phases: &Phases,
         phase: Phase,
     ) -> Factor<'static> {
@@ -130,7 +130,7 @@ impl Response {
             polynomial: vec![0.0; self.stride],
             other: None,
         };
-        for (link, _) in self.motions.iter().filter(|(_, moved)| *moved == law) {
+        for (link, _) in self.motions.iter().filter(|(_, moved)| *moved == of) {
             let channel = self.links[*link].channel;
             let channel = &coefficients[channel * self.stride..][..self.stride];
             for (power, to) in rate.polynomial.iter_mut().enumerate() {
@@ -138,7 +138,7 @@ impl Response {
             }
         }
         for (number, harmonic) in forcing.harmonics().iter().enumerate() {
-            let own = harmonic.motions.iter().filter(|(moved, _)| *moved == law);
+            let own = harmonic.motions.iter().filter(|(moved, _)| *moved == of);
             let amplitude = own.fold(Complex::zero(), |total, (_, motion)| total + *motion);
             let turning = amplitude * Complex::new(0.0, harmonic.omega);
             let unit = phases.unit(phase, self, number);
