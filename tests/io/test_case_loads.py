@@ -347,6 +347,39 @@ def test_supports_move_in_either_frame(tmp_path: Path) -> None:
             case(tmp_path, wrong)
 
 
+def test_obstacles_of_a_shape_move_along_axes(tmp_path: Path) -> None:
+    wave = '{ travel = "2 mm", harmonics = [{ frequency = "2 Hz", sine = 1 }] }'
+    hole = (
+        '[stops.hole]\nnode = "B"\nobstacle = "circle"\naxis = [0, 0, 1]\nradius = "1 mm"\n'
+        f"stiffness = 1e4\nmotion.dx = {wave}\n"
+    )
+    (stop,) = case(tmp_path, f'{hole}frame = "absolute"\n').laws
+    assert isinstance(stop, bs.CircleStop)
+    assert stop.motion == {"dx": (bs.Harmonic(2.0, sine=2e-3),)}
+    assert stop.frame == "absolute"
+    floor = (
+        '[stops.floor]\nnode = "B"\nnormal = [1, 0, 0]\nstiffness = 1e4\nsliding = "plane"\n'
+        f"friction = 0.3\ntangential_stiffness = 1e4\nmotion.dx = {wave}\n"
+    )
+    (rubs,) = case(tmp_path, floor).laws
+    assert isinstance(rubs, bs.PlaneStop)
+    assert rubs.motions[0] == (bs.Harmonic(2.0, sine=2e-3),)
+    for wrong, message in (
+        (
+            hole.replace("motion.dx", "motion"),
+            r"stops\.hole\.motion\.harmonics: must say along which",
+        ),
+        (hole.replace("motion.dx", "motion.rx"), r"stops\.hole\.motion\.rx: .*unknown"),
+        (hole.replace(wave, "{}"), r"stops\.hole\.motion\.dx: needs harmonics"),
+        (
+            STOP + f"motion.dx = {wave}\n",
+            r"stops\.wall\.motion\.dx: a plane moves along its normal",
+        ),
+    ):
+        with pytest.raises(bs.InputError, match=message):
+            case(tmp_path, wrong)
+
+
 def test_a_beam_is_pushed_onto_its_stop_and_let_go(tmp_path: Path) -> None:
     text = (
         "[basis]\nmodes = 3\n"

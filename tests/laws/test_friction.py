@@ -302,6 +302,39 @@ def one_mode_on_a_wall(*dofs: str) -> bs.Problem:
     return bs.Problem(basis, laws=[wall], initial=thrown, duration=0.01)
 
 
+def test_a_free_block_that_an_obstacle_throws_off_slides_meanwhile() -> None:
+    """Nothing holds it along the obstacle, and no other force acts on it: it slides from the start,
+    since the damper of a contact that sticks would take more than friction holds."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[0.0, 0.0],
+        damping=[0.0, 0.0],
+        shapes={("P", "dx"): [1.0, 0.0], ("P", "dz"): [0.0, 1.0]},
+    )
+    k, depth, friction, speed = 5e3, 2e-3, 0.5, 1.0
+    floor = bs.Stop(
+        "floor",
+        node="P",
+        normal=(0, 0, 1),
+        stiffness=k,
+        friction=friction,
+        sliding=(1, 0, 0),
+        tangential_stiffness=3e4,
+        tangential_damping=20.0,
+    )
+    start = bs.ModalState(displacement=[0.0, -depth], velocity=[speed, 0.0])
+    problem = bs.Problem(basis, laws=[floor], initial=start, duration=2.0)
+    response = bs.simulate(problem, "exact")
+    # The force k depth cos(rate t) ends with the distance, and takes its impulse times friction.
+    rate = math.sqrt(k)
+    end = 0.5 * math.pi / rate
+    left = speed - friction * depth * rate
+    place = speed * end - friction * depth
+    found = [response.sample("displacement", "P", dof, times=[2.0])[0] for dof in ("dx", "dz")]
+    assert response.event_count >= 1
+    assert found[1] == pytest.approx(depth * rate * (2.0 - end), rel=1e-12)
+    assert found[0] == pytest.approx(place + left * (2.0 - end), rel=1e-12)
+
+
 def test_a_node_that_one_mode_moves_slides_or_is_refused() -> None:
     sliding = bs.simulate(one_mode_on_a_wall("dx", "dy"))
     assert float(abs(sliding.friction_force("wall")).max()) > 0

@@ -89,7 +89,10 @@ impl Subspace {
         }
         let force = &self.left * force;
         let driven = own.driven_by(&force);
-        let rest = if driven.is_empty() {
+        // A rigid motion has no stiffness to divide nothing by.
+        let rest = if force.norm_max() == 0.0 {
+            force
+        } else if driven.is_empty() {
             self.matrix.full_piv_lu().solve(-force)
         } else {
             rest_beside(&self.matrix, &force, &own)

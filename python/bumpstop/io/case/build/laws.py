@@ -13,10 +13,8 @@ from bumpstop.laws import Stop
 if TYPE_CHECKING:
     from bumpstop.io.case.tables.case_file import CaseFile
     from bumpstop.io.case.tables.laws import LawTable
-    from bumpstop.io.case.tables.motion import MotionTable
     from bumpstop.io.case.tables.stops import StopTable
     from bumpstop.laws import BucklingStop, DamperLaw, SpringLaw
-    from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Law
 
 __all__ = ["built_laws"]
@@ -79,7 +77,7 @@ def _stops(name: str, table: StopTable, folder: Path) -> Iterator[Law]:
 
     for own, each in faces(name, table):
         if each.obstacle in AROUND:
-            yield shaped_stop(own, _given(each))
+            yield shaped_stop(own, _moving(_given(each), each, folder))
         else:
             yield _stop(own, each, folder)
 
@@ -92,9 +90,7 @@ def _stop(name: str, table: StopTable, folder: Path) -> Law:
     _refuse(given, SHAPED, "a plane", 'take obstacle = "circle" or "polar"')
     for key in ("half_thickness", "other_half_thickness"):
         given["gap"] -= given.pop(key, 0.0)
-    if table.motion is not None:
-        with keyed("motion"):
-            given["motion"] = _motion(table.motion, folder)
+    _moving(given, table, folder)
     if table.restitution is not None:
         from bumpstop.laws import RigidStop
 
@@ -124,6 +120,19 @@ def _stop(name: str, table: StopTable, folder: Path) -> Law:
     return Stop(name, **given)
 
 
+def _moving(given: dict[str, Any], table: StopTable, folder: Path) -> dict[str, Any]:
+    """Return keys of a stop with the functions of time that move its obstacle."""
+    if table.motion is not None:
+        from bumpstop.io.case.build.motion import along_axes, along_normal
+        from bumpstop.io.case.build.shapes import AROUND
+
+        has_shape = table.obstacle in AROUND or table.sliding == "plane"
+        with keyed("motion"):
+            moved = along_axes if has_shape else along_normal
+            given["motion"] = moved(table.motion, folder)
+    return given
+
+
 def _buckling(name: str, given: dict[str, Any]) -> BucklingStop:
     from bumpstop.laws import BucklingStop
 
@@ -143,17 +152,6 @@ def _refuse(given: dict[str, Any], keys: Iterable[str], kind: str, reason: str) 
         if value:
             hint = f"leave it out, or {reason}"
             raise InputError(f"is of no use to {kind}", key=key, value=value, hint=hint)
-
-
-def _motion(table: MotionTable, folder: Path) -> list[TimeFunction]:
-    from bumpstop.errors import InputError
-    from bumpstop.io.case.build.time import built_time
-    from bumpstop.loads.time import scaled
-
-    functions = built_time(table, folder)
-    if functions is None:
-        raise InputError("needs harmonics, a polynomial or a table")
-    return [scaled(function, table.travel) for function in functions]
 
 
 def _connection(name: str, table: LawTable) -> Law:

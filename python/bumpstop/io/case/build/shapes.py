@@ -24,12 +24,10 @@ _OF_PLANES = (
     "hunt_crossley",
     "restitution",
     "resolution",
-    "motion",
-    "frame",
     "sliding",
 )
 """What planes alone have."""
-_OF_SIMPLE_PLANES = ("terms", "exponent", "hunt_crossley", "motion", "frame")
+_OF_SIMPLE_PLANES = ("terms", "exponent", "hunt_crossley")
 """What planes that rub in two directions do not have."""
 _OF_CIRCLES = ("radius", "body_radius", "side")
 

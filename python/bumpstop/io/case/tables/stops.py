@@ -129,7 +129,8 @@ class StopTable(Table):
     )
     motion: MotionTable | None = Field(
         default=None,
-        description="How far the obstacle moves along its normal, towards the structure, over time",
+        description="How far the obstacle moves over time: a plane along its normal, towards the "
+        "structure, others along axes",
     )
     frame: Annotated[str, choice("relative", "absolute")] | None = Field(
         default=None,
