@@ -39,6 +39,8 @@ def test_a_ball_bounces_as_its_restitution_says() -> None:
     assert np.abs(table["opening_speed"] / table["closing_speed"] - 0.8).max() < 1e-9
     impulses = 2.0 * table["closing_speed"] * 1.8
     assert np.abs(table["impulse"] / impulses - 1.0).max() < 1e-3
+    # A floor gives back the energy of the speed that the ball leaves it with.
+    assert table["energy_returned"] == pytest.approx(table["opening_speed"] ** 2, rel=1e-2)
     assert run.energy_residual < 1e-9
 
 

@@ -55,6 +55,18 @@ impl Impact {
             self.energy_absorbed -= work;
         }
     }
+
+    /// Adds the work of an impulse during which the rate of the distance goes from one value to
+    /// another: it is linear in the impulse that grows, and changes sign once at most.
+    pub(crate) fn add_work_of_impulse(&mut self, impulse: f64, [before, after]: [f64; 2]) {
+        if before < 0.0 && after > 0.0 {
+            let share = |rate: f64| 0.5 * impulse * rate * rate / (after - before);
+            self.add_work(-share(before));
+            self.add_work(share(after));
+        } else {
+            self.add_work(0.5 * impulse * (before + after));
+        }
+    }
 }
 
 /// A law's motion at one step of a fixed-step scheme.

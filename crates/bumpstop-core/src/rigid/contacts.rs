@@ -40,15 +40,7 @@ impl Blow {
         impact.opening_speed = self.after;
         impact.impulse = self.impulse;
         impact.see_force(self.time, f64::INFINITY);
-        // While the impulse grows from zero the rate changes sign once at most.
-        let (before, after) = (self.before, self.after);
-        let share = |rate: f64| 0.5 * self.impulse * rate * rate / (after - before);
-        if before < 0.0 && after > 0.0 {
-            impact.add_work(-share(before));
-            impact.add_work(share(after));
-        } else {
-            impact.add_work(-self.loss());
-        }
+        impact.add_work_of_impulse(self.impulse, [self.before, self.after]);
         impact
     }
 }

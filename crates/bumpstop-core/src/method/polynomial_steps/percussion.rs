@@ -55,7 +55,8 @@ pub(crate) fn impacts<'a>(percussions: impl Iterator<Item = &'a Percussion>) -> 
             impact.end = each.time;
             impact.opening_speed = each.after;
             impact.impulse += each.impulse;
-            impact.add_work(-each.loss());
+            impact.add_work_of_impulse(each.impulse, [each.before, each.after]);
+            impact.add_work(-each.rubbed);
         }
         last = Some(each);
     }
