@@ -109,8 +109,10 @@ def test_refuses() -> None:
     run = driven(duration=1.0)
     with pytest.raises(bs.InputError, match="no instant"):
         bs.stroboscopic_section(run, "P", "dx", 0.5, start=1.4)
-    with pytest.raises(bs.InputError, match="two periods"):
+    with pytest.raises(bs.InputError, match=r"period: must leave two periods"):
         bs.periodicity(run, 0.6)
+    with pytest.raises(bs.InputError, match=r"start: must leave two periods"):
+        bs.periodicity(run, 0.3, start=0.8)
     with pytest.raises(bs.InputError, match="must be positive"):
         bs.stroboscopic_section(run, "P", "dx", 0.0)
 

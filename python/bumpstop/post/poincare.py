@@ -256,8 +256,9 @@ def periodicity(
     """
     times = _strobes(response, period, 0.0, start)
     if len(times) < 3:
+        key, value = ("start", start) if start > 0.0 else ("period", period)
         what = "must leave two periods before the end of the run"
-        raise InputError(what, key="start", value=start)
+        raise InputError(what, key=key, value=value)
     states, largest = _states(response, times), _largest(response)
     size = largest(states)
     least = np.inf

@@ -79,7 +79,7 @@ class FlatScar:
         InputError
             If the volume is more than that of the rod.
         """
-        return _depth(self.area, volume / self.length, 2.0 * self.radius)
+        return _depth(self.area, volume, self.length, 2.0 * self.radius)
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ class HoleScar:
         InputError
             If the volume is more than that of the tube.
         """
-        return _depth(self.area, volume / self.length, 2.0 * self.radius)
+        return _depth(self.area, volume, self.length, 2.0 * self.radius)
 
 
 def _segment(radius: float, distance: float) -> float:
@@ -148,14 +148,16 @@ def _segment(radius: float, distance: float) -> float:
     return radius**2 * (angle - math.sin(angle) * math.cos(angle))
 
 
-def _depth(area: Callable[[float], float], wanted: float, most: float) -> float:
-    """Return the depth whose area is wanted: areas grow with depths."""
+def _depth(area: Callable[[float], float], volume: float, length: float, most: float) -> float:
+    """Return the depth at which a scar of a length has a volume: areas grow with depths."""
     from scipy.optimize import brentq
 
-    not_negative("volume", wanted)
+    wanted = not_negative("volume", volume) / length
     if wanted == 0.0:
         return 0.0
     if wanted > area(most):
-        raise InputError("is more than there is to be worn", key="volume", value=wanted)
+        what = "is more than there is to be worn"
+        hint = f"that is {area(most) * length:.6g} m3"
+        raise InputError(what, key="volume", value=volume, hint=hint)
     found: float = brentq(lambda depth: area(depth) - wanted, 0.0, most, xtol=1e-15, rtol=1e-14)
     return found
