@@ -264,6 +264,59 @@ def test_its_steps_follow_the_contact_and_not_the_flight() -> None:
     assert run.steps < 5000
 
 
+GROWING: dict[str, Any] = {
+    "sine": bs.Harmonic(1.0, sine=1.0),
+    "ramp": bs.TimeTable(times=[0.0, 1.0], values=[0.0, 1.0]),
+    "shock": bs.TimeTable(times=[0.0, 0.5, 0.51, 1.0], values=[0.0, 0.0, 1.0, 1.0]),
+}
+
+
+@pytest.mark.parametrize("load", GROWING)
+@pytest.mark.parametrize("points", [20.0, 50.0, 1e4])
+def test_it_leaves_rest_under_a_load_that_grows_from_zero(load: str, points: float) -> None:
+    """The velocity that its first step predicts is none, and so would be the work of the load."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[5.0, 12.0], damping=[0.02, 0.01], shapes={("P", "dx"): [1.0, 0.5]}
+    )
+    push = bs.NodalForce("push", node="P", force=(1, 0, 0), time=GROWING[load])
+    problem = bs.Problem(basis, loads=[push], duration=1.0)
+    run = bs.simulate(problem, "adaptive_central_difference", points_per_period=points)
+    assert error(run, bs.simulate(problem, "exact")) < 40.0 / points**2
+    assert run.energy_residual < 40.0 / points**2
+
+
+@pytest.mark.parametrize("method", ADAPTIVE)
+@pytest.mark.parametrize("rtol", [1e-3, 1e-5, 1e-7, 1e-10])
+def test_the_first_step_is_short_for_what_a_law_answers(method: str, rtol: float) -> None:
+    """A mass on a damper alone, over one time constant.
+
+    The estimate of `rk32` is `z^3 (1 - z) / 48` for a step of `z` time constants: it vanishes for
+    all of the run.
+    """
+    basis = bs.ModalBasis.from_modes(frequency=[0.0], damping=[0.0], shapes={("P", "dx"): [1.0]})
+    damper = bs.DamperLaw("damper", node="P", direction=(1, 0, 0), damping=(5.0,), breaks=())
+    start = bs.ModalState(displacement=[0.0], velocity=[1.0])
+    problem = bs.Problem(basis, laws=[damper], initial=start, duration=0.2)
+    run = bs.simulate(problem, method, rtol=rtol)
+    times = np.linspace(0.0, 0.2, 21)
+    true = (1.0 - np.exp(-5.0 * times)) / 5.0
+    found = run.sample("displacement", "P", "dx", times=times)
+    assert found == pytest.approx(true, abs=10.0 * rtol * true[-1])
+
+
+@pytest.mark.parametrize("method", ADAPTIVE)
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-5, 1e-7])
+def test_steps_are_short_behind_a_switch_to_a_law_that_answers_fast(
+    method: str, rtol: float
+) -> None:
+    """Where the valve closes, its time constant falls to a fortieth, in the midst of long steps."""
+    problem = case_problem("damper-law", "valve")
+    exact = bs.simulate(problem, "exact")
+    run = bs.simulate(problem, method, rtol=rtol)
+    assert error(run, exact) < 3.0 * rtol
+    assert list(run.event_table()["after"]) == list(exact.event_table()["after"])
+
+
 def test_stiff_modes_at_rest_cost_the_exponential_pair_nothing() -> None:
     """Beside a mode of 5 Hz one of 50 kHz, whose period no explicit pair can step over."""
     basis = bs.ModalBasis.from_modes(

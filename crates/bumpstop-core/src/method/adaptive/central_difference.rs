@@ -2,10 +2,13 @@
 //!
 //! `q1 = q + h v + h^2 a / 2`, `v1 = v + h (a + a1) / 2`: second order, and a step of its own for every
 //! stretch of the motion. Forces that velocities enter see `v + h a`, memories and works go by Heun's
-//! rule alike. How fast the motion is, is read from what the last step did to it: between its ends a
-//! mode with the frequency w has `|a1 - a| = w^2 |q1 - q|`. The largest of these frequencies takes so
-//! many points a period. A mode that hardly moves is not asked for its frequency by what it moves,
-//! but by what it would with a small part of the largest speed. No step is shorter than the highest
+//! rule alike. The work of loads goes by the trapezoidal rule with `v1`: from rest under a load that
+//! grows from zero `v + h a` is zero, and such a load would give nothing in the first step.
+//!
+//! How fast the motion is, is read from what the last step did to it: between its ends a mode with
+//! the frequency w has `|a1 - a| = w^2 |q1 - q|`. The largest of these frequencies takes so many
+//! points a period. A mode that hardly moves is not asked for its frequency by what it moves, but by
+//! what it would with a small part of the largest speed. No step is shorter than the highest
 //! frequency would need that modes and laws in their present states have, nor much longer than half
 //! the limit `2 / (c + sqrt(c^2 + w^2))` at which a root of the scheme passes -1, c the damping.
 //!
@@ -21,6 +24,7 @@ use crate::law::Law;
 use crate::method::polynomial_steps::{Equations, write_cubic};
 use crate::system::Coupling;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// The method's name.
 pub const NAME: &str = "adaptive_central_difference";
@@ -121,11 +125,17 @@ impl CentralDifference {
     }
 
     /// All but the displacements at the end, from the rates at both ends.
-    fn correct(&mut self, h: f64, modes: usize) {
-        let rates = self.rates[0].iter().zip(&self.rates[1]);
-        let all = self.end.iter_mut().zip(&self.start).zip(rates);
-        for ((to, from), (first, last)) in all.skip(modes) {
-            *to = from + 0.5 * h * (first + last);
+    fn correct<L: Law>(&mut self, h: f64, equations: &Equations<'_, L>) {
+        let modes = equations.layout.modes;
+        self.add_mean_rates(h, modes..2 * modes);
+        equations.correct_load_power(&self.end, &mut self.rates[1]);
+        self.add_mean_rates(h, 2 * modes..self.end.len());
+    }
+
+    /// Some numbers at the end, by the trapezoidal rule.
+    fn add_mean_rates(&mut self, h: f64, which: Range<usize>) {
+        for i in which {
+            self.end[i] = self.start[i] + 0.5 * h * (self.rates[0][i] + self.rates[1][i]);
         }
     }
 
@@ -173,7 +183,7 @@ impl<L: Law> Stepping<L> for CentralDifference {
         }
         self.predict(h, modes);
         equations.rates(time + h, &self.end, &mut self.rates[1]);
-        self.correct(h, modes);
+        self.correct(h, equations);
         let wanted = self.turn / self.frequency(h, modes);
         let [now, then] = [self.bounds, self.bounds(time + h, &self.end, equations)];
         let least = now[0].min(then[0]);

@@ -33,6 +33,7 @@ use crate::error::{Error, Result};
 use crate::history::{Event, History};
 use crate::law::{Guard, Law, Local, LocalMotion, State};
 use crate::problem::Problem;
+use crate::system::Coupling;
 use central_difference::CentralDifference;
 use exponential::Exponential;
 use runge_kutta::RungeKutta;
@@ -48,8 +49,15 @@ const STEPS_BETWEEN_OBSERVATIONS: usize = 256;
 /// How often the energies are looked at, in steps.
 const STEPS_BETWEEN_LOOKS: usize = 16;
 
-/// The first step turns the highest frequency that is known by this angle.
+/// The first step turns the highest frequency of the structure and of the loads by this angle.
 const FIRST_TURN: f64 = 0.1;
+
+/// The first step, and one behind a switch, is no longer than this part of the shortest time in
+/// which the linear laws answer. An estimate of the error speaks of short steps: of longer ones it
+/// may vanish, as that of `rk32` does where the step is the time constant of a damper. What a smooth
+/// law answers tells of an instant only, and may be without bounds there, as at the rest of a damper
+/// with a power of the speed below one.
+const ANSWERED: f64 = 0.5;
 
 /// Steps below this many times the rounding of the time are too small.
 const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
@@ -191,7 +199,7 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
             stepping,
             states,
             time: 0.0,
-            h: first_step(problem),
+            h: first_step(problem).min(answered_step(&equations)),
             longest: longest_step(problem),
             flights,
             landed: Vec::new(),
@@ -398,6 +406,7 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
         self.fired.push((law, guard));
         self.states[law] = event.after;
         self.equations.take_states(&self.states);
+        self.h = self.h.min(answered_step(&self.equations));
         Ok(())
     }
 }
@@ -409,9 +418,23 @@ fn doubt(motion: &LocalMotion, found: &Local<f64>) -> f64 {
     both.map(|(a, b)| 2.0 * (a - b).abs()).sum()
 }
 
-/// A step that turns the highest frequency of the structure and of the loads by little.
+/// A step in which structure and loads do little: frequencies turn, and dampings slow, by it.
 fn first_step<L: Law>(problem: &Problem<L>) -> f64 {
-    let loads = problem.forcing.harmonics().iter().map(|h| h.omega);
-    let fastest = loads.fold(problem.system.highest_frequency(), f64::max);
+    let Problem {
+        system, forcing, ..
+    } = problem;
+    let loads = forcing.harmonics().iter().map(|h| h.omega);
+    let coupling = system.coupling().map_or(0.0, Coupling::size);
+    let damping = system
+        .damping()
+        .iter()
+        .fold(coupling, |c, d| c.max(d.abs()));
+    let fastest = loads.fold(system.highest_frequency().max(damping), f64::max);
     (FIRST_TURN / fastest).min(problem.duration)
+}
+
+/// A step in which the linear laws, in their present states, answer but in part.
+fn answered_step<L: Law>(equations: &Equations<'_, L>) -> f64 {
+    let [stiffness, damping] = equations.linear_answers();
+    ANSWERED / stiffness.sqrt().max(damping)
 }

@@ -6,7 +6,7 @@
 use super::loads::Loads;
 use super::slopes::slopes;
 use crate::energy::{self, Ledger};
-use crate::law::{Law, Local, Piece, State, power, project};
+use crate::law::{COORDINATES, Law, Local, Piece, State, power, project};
 use crate::method::piecewise_linear::Works;
 use crate::problem::Problem;
 use crate::rotation::Turning;
@@ -167,6 +167,7 @@ pub(crate) struct Equations<'a, L> {
     states: Vec<State>,
     pieces: Vec<Option<Piece>>,
     moves: bool,
+    /// The loads that change, unbalances among them, at the time the rates were taken last.
     changing: Vec<f64>,
 }
 
@@ -247,15 +248,24 @@ impl<'a, L: Law> Equations<'a, L> {
         works.fill(0.0);
         rates.copy_from_slice(v);
         accelerations.copy_from_slice(self.problem.forcing.forces());
+        self.changing.fill(0.0);
         if self.loads.vary() {
             self.loads.changing(time, &mut self.changing);
-            for ((a, p), v) in accelerations.iter_mut().zip(&self.changing).zip(v) {
-                *a += p;
-                works[LOADS] += p * v;
+        }
+        for turning in &self.turning {
+            let modes = accelerations.iter_mut().zip(&mut self.changing).zip(v);
+            for (((a, p), v), parts) in modes.zip(turning.forces(time, [q, v])) {
+                *a += parts.gyroscopic + parts.accelerating;
+                *p += parts.unbalance;
+                // Gyroscopic forces do no work.
+                works[CIRCULATORY] += parts.accelerating * v;
             }
         }
+        for (a, p) in accelerations.iter_mut().zip(&self.changing) {
+            *a += p;
+        }
+        works[LOADS] = self.load_power(v);
         self.add_structure([q, v], accelerations, works);
-        self.add_rotations(time, [q, v], accelerations, works);
         for (index, law) in self.problem.laws.iter().enumerate() {
             let [position, velocity, speed] = self.local(index, time, [q, v]);
             let state = layout.state(index, self.states[index], numbers);
@@ -277,6 +287,18 @@ impl<'a, L: Law> Equations<'a, L> {
         }
     }
 
+    /// The power of the changing loads that the rates were taken with last, in W.
+    fn load_power(&self, velocity: &[f64]) -> f64 {
+        let both = self.changing.iter().zip(velocity);
+        both.map(|(p, v)| p * v).sum()
+    }
+
+    /// Corrects the power of these loads among the rates, for other numbers than those were taken of.
+    pub(crate) fn correct_load_power(&self, numbers: &[f64], rates: &mut [f64]) {
+        let [_, velocity] = self.layout.motion(numbers);
+        rates[self.layout.works + LOADS] = self.load_power(velocity);
+    }
+
     /// How the laws answer to motions in their present states: bounds of the stiffness and of the
     /// damping that they add to any motion of the modes, in rad2/s2 and rad/s.
     pub(crate) fn answers(&self, time: f64, numbers: &[f64]) -> [f64; 2] {
@@ -291,30 +313,20 @@ impl<'a, L: Law> Equations<'a, L> {
         for (index, law) in self.problem.laws.iter().enumerate() {
             let [position, velocity, _] = self.local(index, time, motion);
             let state = self.layout.state(index, self.states[index], numbers);
-            let answers = slopes(law, state, [position, velocity]);
-            let length = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let lengths: Local<f64> =
-                std::array::from_fn(|c| law.rows().get(c).map_or(0.0, |row| length(row)));
-            for (sum, answers) in sums.iter_mut().zip(answers) {
-                for (row, i) in answers.iter().zip(lengths) {
-                    let row = row.iter().zip(lengths);
-                    *sum += row.map(|(slope, j)| (slope * i * j).abs()).sum::<f64>();
-                }
-            }
+            add_answers(law, &slopes(law, state, [position, velocity]), &mut sums);
         }
         sums
     }
 
-    /// What shafts do whose speed changes. Gyroscopic forces do no work.
-    fn add_rotations(&self, time: f64, motion: [&[f64]; 2], to: &mut [f64], works: &mut [f64]) {
-        for turning in &self.turning {
-            let modes = to.iter_mut().zip(motion[1]);
-            for ((a, v), parts) in modes.zip(turning.forces(time, motion)) {
-                *a += parts.sum();
-                works[CIRCULATORY] += parts.accelerating * v;
-                works[LOADS] += parts.unbalance * v;
+    /// The same of the laws alone that are linear in their present states, wherever in these.
+    pub(crate) fn linear_answers(&self) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (law, piece) in self.problem.laws.iter().zip(&self.pieces) {
+            if let Some(piece) = piece {
+                add_answers(law, &[piece.stiffness, piece.damping], &mut sums);
             }
         }
+        sums
     }
 
     /// What stiffness, damping and the matrices that couple modes do.
@@ -336,6 +348,19 @@ impl<'a, L: Law> Equations<'a, L> {
                     works[work] += sign * force * v;
                 }
             }
+        }
+    }
+}
+
+/// Adds bounds of what a law's stiffness and damping matrices are to motions of the modes.
+fn add_answers<L: Law>(law: &L, answers: &[[Local<f64>; COORDINATES]; 2], sums: &mut [f64; 2]) {
+    let length = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let lengths: Local<f64> =
+        std::array::from_fn(|c| law.rows().get(c).map_or(0.0, |row| length(row)));
+    for (sum, answers) in sums.iter_mut().zip(answers) {
+        for (row, i) in answers.iter().zip(lengths) {
+            let row = row.iter().zip(lengths);
+            *sum += row.map(|(slope, j)| (slope * i * j).abs()).sum::<f64>();
         }
     }
 }
