@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from bumpstop.laws.hardening_spring import HardeningSpring
     from bumpstop.laws.hertz_stop import HertzStop
     from bumpstop.laws.outside_program import OutsideProgram
+    from bumpstop.laws.piped_program import PipedProgram
     from bumpstop.laws.plane_stop import PlaneStop
     from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
@@ -209,6 +210,7 @@ __all__ = [
     "PadScar",
     "Participation",
     "Periodicity",
+    "PipedProgram",
     "Placed",
     "PlaneStop",
     "PointMass",
@@ -378,6 +380,7 @@ _HOME = {
     "NodalState": "loads.nodal_state",
     "Output": "study.outputs",
     "OutsideProgram": "laws.outside_program",
+    "PipedProgram": "laws.piped_program",
     "PadScar": "post.scars",
     "Participation": "modal.masses",
     "Periodicity": "post.poincare",

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from bumpstop.laws.hardening_spring import HardeningSpring
     from bumpstop.laws.hertz_stop import HertzStop
     from bumpstop.laws.outside_program import OutsideProgram
+    from bumpstop.laws.piped_program import PipedProgram
     from bumpstop.laws.plane_stop import PlaneStop
     from bumpstop.laws.polar_stop import PolarStop
     from bumpstop.laws.rigid_stop import RigidStop
@@ -35,6 +36,7 @@ __all__ = [
     "HardeningSpring",
     "HertzStop",
     "OutsideProgram",
+    "PipedProgram",
     "PlaneStop",
     "PolarStop",
     "RigidStop",
@@ -55,6 +57,7 @@ _HOME = {
     "HardeningSpring": "hardening_spring",
     "HertzStop": "hertz_stop",
     "OutsideProgram": "outside_program",
+    "PipedProgram": "piped_program",
     "PlaneStop": "plane_stop",
     "PolarStop": "polar_stop",
     "RigidStop": "rigid_stop",

@@ -30,7 +30,8 @@ class OutsideProgram(Connection):
     number of the step, the displacement ``q = direction . (u - u_other)`` and its velocity, and
     answers with the force on the node over that step, in N. So the program behind it may have a
     state of its own, and go by the same step. Steps are marched in stretches: it is asked for up
-    to 64 steps beyond the end, too. Of a program that is a generator, give its ``send``.
+    to 64 steps beyond the end, too. Of a program that is a generator, give its ``send``; of one
+    that reads and writes lines, a `PipedProgram`.
 
     What is read of the response later, asks the program nothing. What its force takes from the
     motion counts as dissipated in the energy ledger. A problem with such a law cannot be written to

@@ -47,6 +47,8 @@ CONNECTIONS = {
     "hardening": "HardeningSpring",
 }
 """The class of each type of law that takes what its table has."""
+PROGRAMMED = ("python", "program")
+"""The types of laws that a program of the user computes."""
 SLOPES = {"spring": ("stiffness", "breaks", "preload"), "damper": ("damping", "breaks", "offset")}
 """What a curve tells of the types that have several slopes."""
 
@@ -64,7 +66,7 @@ def built_laws(case: CaseFile, folder: Path) -> list[Law]:
 
                 laws.append(built_crack(name, law, case, folder))
             else:
-                laws.append(_connection(name, law))
+                laws.append(_connection(name, law, folder))
     return laws
 
 
@@ -154,11 +156,19 @@ def _refuse(given: dict[str, Any], keys: Iterable[str], kind: str, reason: str) 
             raise InputError(f"is of no use to {kind}", key=key, value=value, hint=hint)
 
 
-def _connection(name: str, table: LawTable) -> Law:
+def _connection(name: str, table: LawTable, folder: Path) -> Law:
     import bumpstop.laws as known
 
     given = _given(table)
     kind = given.pop("type")
+    if kind in PROGRAMMED:
+        from bumpstop.io.case.build import programs
+
+        return (
+            programs.user_law(name, given, folder)
+            if kind == "python"
+            else (programs.outside_program(name, given, folder))
+        )
     if kind in SLOPES:
         return _of_slopes(name, kind, given)
     law: Law = getattr(known, CONNECTIONS[kind])(name, **given)

@@ -19,6 +19,7 @@ __all__ = [
     "AreaMoment",
     "DampingConstant",
     "Density",
+    "Directions",
     "Force",
     "Force3",
     "Frequencies",
@@ -154,6 +155,16 @@ def _vector(dimension: Dimension, length: int = 3) -> Plain:
     return Plain(read, _array(item, length))
 
 
+def _vectors(dimension: Dimension) -> Plain:
+    """Return a field of one list of three components or more."""
+    item = _vector(dimension)
+
+    def read(value: object) -> list[tuple[float, ...]]:
+        return read_list(value, item.read, "lists of three numbers")
+
+    return Plain(read, _array(item))
+
+
 def _series(dimension: Dimension, least: float | None = None) -> Plain:
     """Return a field of one number or more."""
     item = _quantity(dimension, least=least)
@@ -204,6 +215,7 @@ PoissonRatio = Annotated[float, _quantity(_NUMBER)]
 Length2 = Annotated[tuple[float, float], _vector(_LENGTH, length=2)]
 Length3 = Annotated[tuple[float, float, float], _vector(_LENGTH)]
 Number3 = Annotated[tuple[float, float, float], _vector(_NUMBER)]
+Directions = Annotated[list[tuple[float, float, float]], _vectors(_NUMBER)]
 Acceleration3 = Annotated[tuple[float, float, float], _vector(_ACCELERATION)]
 Velocity = Annotated[float, _quantity(_VELOCITY)]
 Velocity3 = Annotated[tuple[float, float, float], _vector(_VELOCITY)]

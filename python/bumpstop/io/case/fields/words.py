@@ -15,6 +15,7 @@ from bumpstop.structure.dofs import DOFS
 __all__ = [
     "BeamEnds",
     "BeamName",
+    "Command",
     "Dofs",
     "Formats",
     "Group",
@@ -122,6 +123,10 @@ def _read_load_names(value: object) -> list[str] | str:
     return "all" if value == "all" else read_list(value, _read_name, "names of loads")
 
 
+def _read_command(value: object) -> list[str]:
+    return read_list(value, _read_text, "texts, the program first")
+
+
 def _read_units(value: object) -> list[str]:
     units = read_list(value, _read_text, "units")
     if len(units) != 2:
@@ -151,6 +156,7 @@ LinkedNodes = Annotated[tuple[str, ...], Plain(_read_linked, {**_STRINGS, "minIt
 LoadNames = Annotated[
     list[str] | str, Plain(_read_load_names, {"anyOf": [{"const": "all"}, _STRINGS]})
 ]
+Command = Annotated[list[str], Plain(_read_command, _STRINGS)]
 Units = Annotated[list[str], Plain(_read_units, {**_STRINGS, "minItems": 2, "maxItems": 2})]
 Formats = Annotated[
     list[str], Plain(_read_formats, {**_STRINGS, "items": {"enum": list(FORMATS)}, "minItems": 0})

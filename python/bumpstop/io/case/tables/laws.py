@@ -13,14 +13,16 @@ from bumpstop.io.case.fields.laws import (
 )
 from bumpstop.io.case.fields.quantities import (
     DampingConstant,
+    Directions,
     Force,
     Length,
+    Number,
     Number3,
     PositiveLength,
     PositiveNumber,
     Stiffness,
 )
-from bumpstop.io.case.fields.words import Node, OneDof, Text, choice
+from bumpstop.io.case.fields.words import Command, Node, OneDof, Text, choice
 from bumpstop.io.case.tables.table import Field, Kinds, Table
 
 __all__ = [
@@ -29,8 +31,10 @@ __all__ = [
     "ForceRelationTable",
     "HardeningSpringTable",
     "LawTable",
+    "OutsideProgramTable",
     "SeismicDeviceTable",
     "SpringLawTable",
+    "UserLawTable",
     "ZenerDamperTable",
 ]
 
@@ -198,6 +202,37 @@ class CrackedRotorTable(Table):
     )
 
 
+class ProgrammedTable(ConnectionTable):
+    """What laws have that a program computes."""
+
+    further_directions: Directions = Field(
+        default=(), description="More directions along which it acts, between the same nodes"
+    )
+
+
+class UserLawTable(ProgrammedTable):
+    """A force that a function in a Python file computes."""
+
+    type: Literal["python"] = Field(description="Kind of law")
+    file: Text = Field(
+        description="Python file, relative to the case file, that defines force(q, v, t) and may "
+        "define jacobian(q, v, t) and memory_rate(q, v, t, z); it is run as the case is read"
+    )
+    memory: Number = Field(
+        default=0.0, description="Value at t = 0 of the variable whose rate the file gives"
+    )
+
+
+class OutsideProgramTable(ProgrammedTable):
+    """A force that another program answers with, once a step of symplectic_euler."""
+
+    type: Literal["program"] = Field(description="Kind of law")
+    command: Command = Field(
+        description="The program and its arguments; it is started in the folder of the case file, "
+        "reads a line with step, displacements and velocities, and writes one with forces"
+    )
+
+
 LawTable = Annotated[
     SpringLawTable
     | ZenerDamperTable
@@ -205,6 +240,8 @@ LawTable = Annotated[
     | ForceRelationTable
     | SeismicDeviceTable
     | HardeningSpringTable
-    | CrackedRotorTable,
+    | CrackedRotorTable
+    | UserLawTable
+    | OutsideProgramTable,
     Kinds("type"),
 ]
