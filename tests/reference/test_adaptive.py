@@ -285,6 +285,27 @@ def test_it_leaves_rest_under_a_load_that_grows_from_zero(load: str, points: flo
     assert run.energy_residual < 40.0 / points**2
 
 
+def test_its_steps_follow_dampers_too() -> None:
+    """A mass on a damper alone has no frequency, but a rate."""
+    basis = bs.ModalBasis.from_modes(frequency=[0.0], damping=[0.0], shapes={("P", "dx"): [1.0]})
+    damper = bs.DamperLaw("damper", node="P", direction=(1, 0, 0), damping=(5.0,), breaks=())
+    start = bs.ModalState(displacement=[0.0], velocity=[1.0])
+    problem = bs.Problem(basis, laws=[damper], initial=start, duration=1.0)
+    times = np.linspace(0.0, 1.0, 21)
+    true = (1.0 - np.exp(-5.0 * times)) / 5.0
+    coarse, fine = (
+        np.abs(
+            bs.simulate(problem, "adaptive_central_difference", points_per_period=points).sample(
+                "displacement", "P", "dx", times=times
+            )
+            - true
+        ).max()
+        for points in (50.0, 200.0)
+    )
+    assert coarse / fine == pytest.approx(16.0, rel=0.3)
+    assert fine < 1e-3 * true[-1]
+
+
 @pytest.mark.parametrize("method", ADAPTIVE)
 @pytest.mark.parametrize("rtol", [1e-3, 1e-5, 1e-7, 1e-10])
 def test_the_first_step_is_short_for_what_a_law_answers(method: str, rtol: float) -> None:

@@ -8,8 +8,8 @@
 //! How fast the motion is, is read from what the last step did to it: between its ends a mode with
 //! the frequency w has `|a1 - a| = w^2 |q1 - q|`. The largest of these frequencies takes so many
 //! points a period. A mode that hardly moves is not asked for its frequency by what it moves, but by
-//! what it would with a small part of the largest speed. No step is shorter than the highest
-//! frequency would need that modes and laws in their present states have, nor much longer than half
+//! what it would with a small part of the largest speed. No step is shorter than the highest frequency
+//! or damping would need that modes and laws in their present states have, nor much longer than half
 //! the limit `2 / (c + sqrt(c^2 + w^2))` at which a root of the scheme passes -1, c the damping.
 //!
 //! Sources: the scheme, T. Belytschko, W. K. Liu, B. Moran, Nonlinear Finite Elements for Continua and
@@ -110,7 +110,10 @@ impl CentralDifference {
         let highest = system.highest_frequency().powi(2) + stiffness + of(system.circulatory());
         let damping = largest(system.damping()) + damping + of(system.coupling());
         let limit = 2.0 / (damping + (damping * damping + highest).sqrt());
-        [self.turn / highest.sqrt(), PART_OF_LIMIT * limit]
+        [
+            self.turn / highest.sqrt().max(damping),
+            PART_OF_LIMIT * limit,
+        ]
     }
 
     /// The displacements at the end of a step, and what forces see of the rest there.
