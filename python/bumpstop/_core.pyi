@@ -366,6 +366,8 @@ class History:
     def contact_forces(self, law: int, times: Array) -> Array:
         """Return the force along the normal of the contact and across it, (time, 3)."""
 
+    def states(self, time: float) -> list[tuple[int, int, float, float]]:
+        """States of all laws: number, part of the obstacle and both internal variables."""
     def internal_variables(self, law: int, times: Array) -> Array:
         """Return what a law remembers, brought up to the motion, (time, 2); NaN where nothing."""
     def law_states(self, law: int, times: Array) -> list[str]:
@@ -432,6 +434,7 @@ def simulate(
     parameters: Mapping[str, float] | None = None,
     progress: Callable[[float], None] | None = None,
     exact_flights: bool = True,
+    states: Sequence[tuple[int, int, float, float]] | None = None,
 ) -> History:
     """Integrate; releases the GIL.
 
@@ -439,7 +442,8 @@ def simulate(
     ``rk32``, ``rk54``, ``dop853`` or ``exprk43``, which need ``tolerances``, the relative and the
     absolute one, or ``adaptive_central_difference``, with its own parameter. Those with tolerances
     leave flights between smooth contacts to the exact method if ``exact_flights``.
-    ``progress`` is called with the fraction done, about ten times a second.
+    ``progress`` is called with the fraction done, about ten times a second. ``states`` are those
+    of the laws at t = 0, as `History.states` tells them; the motion decides where left out.
     """
 
 def stability_limit(

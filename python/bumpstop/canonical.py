@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from bumpstop.arguments import FloatArray
+    from bumpstop.continued import LawStates
     from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Problem
@@ -33,6 +34,8 @@ class CanonicalForm(NamedTuple):
     """Modal displacement at t = 0."""
     velocity: FloatArray
     """Modal velocity at t = 0."""
+    states: LawStates | None
+    """The laws' states at t = 0, where they go on in those of another run."""
 
 
 def canonical_form(problem: Problem) -> CanonicalForm:
@@ -59,7 +62,8 @@ def canonical_form(problem: Problem) -> CanonicalForm:
             check(basis, displacement)
     system = _system(problem)
     loads = obstacle_motions(problem, forcing(problem))
-    return CanonicalForm(system, laws, loads, displacement, velocity)
+    states = getattr(problem.initial, "law_states", None)
+    return CanonicalForm(system, laws, loads, displacement, velocity, states)
 
 
 def _system(problem: Problem) -> _core.System:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,10 @@ if TYPE_CHECKING:
     from bumpstop.response import Response
     from bumpstop.structure.model import LinearModel
 
-__all__ = ["continued", "end_state", "started_from"]
+__all__ = ["LawStates", "continued", "end_state", "started_from"]
+
+LawStates: TypeAlias = tuple[tuple[int, int, float, float], ...]
+"""A state of each law: its number, the part of its obstacle and two internal variables."""
 
 _FREE = ("open", "released")
 _FORGETFUL = (
@@ -38,20 +41,25 @@ _FORGETFUL = (
 """Laws whose state follows from the motion, but for friction."""
 
 
+@dataclass(frozen=True)
 class _InMotion(ModalState):
     """A state of another run."""
 
     may_press: ClassVar[bool] = True
     """Stops may be closed in it."""
 
+    law_states: LawStates | None = None
+    """What the laws remember; None where the motion tells it."""
+
 
 def continued(response: Response, *, duration: float, at: float | None = None) -> Problem:
     """Return the problem of a response from one of its instants on, its loads going on in time.
 
-    The instant is the new problem's t = 0. Its motion is that of an unbroken run but for the
-    rounding of displacement, velocity and shifted times, which impacts make grow like any other
-    small difference; it is not the same to the bit. Beyond the end of the response, straight
-    lines through functions that need such are drawn anew, within the same tolerance.
+    The instant is the new problem's t = 0. What laws remember is handed over. Its motion is that of
+    an unbroken run but for the rounding of displacement, velocity and shifted times, which impacts
+    make grow like any other small difference; it is not the same to the bit. Beyond the end
+    of the response, straight lines through functions that need such are drawn anew, within the same
+    tolerance.
 
     Parameters
     ----------
@@ -65,10 +73,10 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
     Raises
     ------
     InputError
-        If a contact rubs at that instant: where its spring is anchored cannot be given to a new
-        run; if a law is there that remembers more than the motion tells, such as a `ZenerDamper`;
-        if supports move and results are told from the ground; or if a shaft turns at a
-        speed that changes.
+        If a program outside is a law, which has gone on; if laws remember more than the motion
+        tells, such as where what rubs is anchored or how a `HardeningSpring` has yielded, and the
+        run was read back from a file or is one of a full model; if supports move and results are
+        told from the ground; or if a shaft turns at a speed that changes.
 
     Examples
     --------
@@ -85,8 +93,6 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
     if not 0.0 <= instant <= problem.duration:
         what = f"must be within the run, 0 to {problem.duration:g} s"
         raise InputError(what, key="at", value=at)
-    for law in problem.laws:
-        _refuse_rubbing(response, law, instant)
     _refuse_changing_speed(problem)
     motion = [response.motion(order, [instant])[0] for order in (0, 1)]
     place, speed = (problem.basis.amplitudes(each) for each in motion)
@@ -94,7 +100,9 @@ def continued(response: Response, *, duration: float, at: float | None = None) -
         problem,
         loads=[_later(load, instant, problem.duration) for load in problem.loads],
         laws=[_moved_on(law, instant, problem.duration) for law in problem.laws],
-        initial=_InMotion(displacement=place, velocity=speed),
+        initial=_InMotion(
+            displacement=place, velocity=speed, law_states=_law_states(response, instant)
+        ),
         duration=positive("duration", duration),
         sample=None,
     )
@@ -106,8 +114,11 @@ def end_state(response: Response) -> FloatArray:
     Raises
     ------
     InputError
-        If another run cannot go on from there; see `continued`.
+        If another run cannot go on from there, or laws remember more than the motion tells.
     """
+    for law in response.problem.laws:
+        refuse_memory(law)
+        _refuse_rubbing(response, law, response.problem.duration)
     initial = continued(response, duration=response.problem.duration).initial
     assert isinstance(initial, _InMotion)
     return np.array([initial.displacement, initial.velocity])
@@ -136,9 +147,34 @@ def _refuse_changing_speed(problem: Problem) -> None:
         raise InputError(what, key="rotation", value=turning, hint=hint)
 
 
+def _law_states(response: Response, instant: float) -> LawStates | None:
+    """Return what the laws remember at an instant; None where the motion tells it."""
+    problem = response.problem
+    remembering = [law for law in problem.laws if _remembers(law)]
+    if not remembering:
+        return None
+    for law in remembering:
+        if getattr(law, "stepped", False):
+            what = "is a program outside, which has gone on"
+            raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
+    # Runs read back from files have none.
+    states: Any = getattr(response.history, "states", None)
+    if states is None or problem.basis.unreduced:
+        for law in remembering:
+            if type(law).__name__ not in _FORGETFUL:
+                refuse_memory(law)
+            _refuse_rubbing(response, law, instant)
+        return None
+    return tuple(states(instant))
+
+
+def _remembers(law: Law) -> bool:
+    """Return whether a law remembers what the motion does not tell."""
+    return type(law).__name__ not in _FORGETFUL or getattr(law, "friction", None) is not None
+
+
 def _refuse_rubbing(response: Response, law: Law, instant: float) -> None:
-    """Raise where a law remembers what the state of the modes does not tell."""
-    refuse_memory(law)
+    """Raise where what rubs is anchored somewhere."""
     if getattr(law, "friction", None) is None:
         return
     state = str(response.sample("state", law.name, times=[instant])[0])

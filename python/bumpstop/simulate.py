@@ -208,6 +208,7 @@ def simulate(
             parameters,
             progress,
             exact_flights is not False,
+            model.states,
         )
     except _core.CoreError as error:
         _blame_scale(chosen, problem, error)

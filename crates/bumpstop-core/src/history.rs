@@ -270,6 +270,19 @@ impl<L: Law> History<L> {
         Ok(found)
     }
 
+    /// The states of all laws at a time, with what they remember then.
+    ///
+    /// # Errors
+    /// When the time lies outside `[0, duration]`.
+    pub fn states(&self, time: f64) -> Result<Vec<State>> {
+        self.check_times(&[time])?;
+        let mut found = Vec::with_capacity(self.problem.laws.len());
+        for law in 0..self.problem.laws.len() {
+            self.visit_law(law, &[time], |_, state, _| found.push(state));
+        }
+        Ok(found)
+    }
+
     /// Internal variables of a law at each time; see [`Law::internal_variables`].
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, check_finite, check_length};
 use crate::forcing::{Forcing, Moved};
-use crate::law::{Law, Local, project};
+use crate::law::{Law, Local, State, project};
 use crate::system::ModalSystem;
 
 /// All that a method needs.
@@ -20,6 +20,8 @@ pub struct Problem<L> {
     pub velocity: Vec<f64>,
     /// Length of the run, in s.
     pub duration: f64,
+    /// The laws' states at t = 0, which the motion decides where there are none.
+    pub(crate) states: Vec<State>,
 }
 
 impl<L: Law> Problem<L> {
@@ -67,7 +69,27 @@ impl<L: Law> Problem<L> {
             displacement,
             velocity,
             duration,
+            states: Vec::new(),
         })
+    }
+
+    /// The same from given states of the laws on, such as those at the end of another run of these
+    /// laws; rigid stops begin in those that the motion decides.
+    ///
+    /// # Errors
+    /// When there is not one a law, or a memory is not finite.
+    pub fn with_states(self, states: Vec<State>) -> Result<Self> {
+        if states.len() != self.laws.len() {
+            return Err(Error::Length {
+                what: "the list of the laws' states",
+                found: states.len(),
+                expected: self.laws.len(),
+            });
+        }
+        for state in &states {
+            check_finite("the memory of a law's state", &state.memory)?;
+        }
+        Ok(Self { states, ..self })
     }
 
     /// Local position and velocity of a law at a time, measured from its obstacle.

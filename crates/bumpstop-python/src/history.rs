@@ -6,7 +6,7 @@ use bumpstop_core::energy::Ledger;
 use bumpstop_core::error::Result;
 use bumpstop_core::history::{self, Derivative};
 use bumpstop_core::impacts::Impact;
-use bumpstop_core::law::{AnyLaw, Law};
+use bumpstop_core::law::{AnyLaw, Law, State};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::exceptions::{PyIndexError, PyValueError};
@@ -14,6 +14,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Mutex;
 use std::time::Instant;
+
+/// A law's state: its number, the part of the obstacle and both internal variables.
+pub(crate) type StateParts = (u8, u16, f64, f64);
 
 type Column<'py> = Bound<'py, PyArray1<f64>>;
 type Term = fn(&Impact) -> f64;
@@ -184,6 +187,13 @@ impl History {
             .map_err(core_error)?;
         let of = |(time, coordinate): (usize, usize)| forces[time][coordinate];
         Ok(Array2::from_shape_fn((times.len(), 3), of).into_pyarray(py))
+    }
+
+    /// The states of all laws at a time: number, part of the obstacle and both internal variables.
+    fn states(&self, py: Python<'_>, time: f64) -> PyResult<Vec<StateParts>> {
+        let states = self.read(py, |h| h.states(time)).map_err(core_error)?;
+        let parts = |s: &State| (s.number, s.part, s.memory[0], s.memory[1]);
+        Ok(states.iter().map(parts).collect())
     }
 
     /// What a law remembers, brought up to the motion at each time; NaN where there is nothing.

@@ -1,11 +1,11 @@
 //! Running a problem.
 
 use crate::core_error;
-use crate::history::History;
+use crate::history::{History, StateParts};
 use crate::parts::{Forcing, LawPart, System, values};
 use bumpstop_core::error::{Error, Result};
 use bumpstop_core::history;
-use bumpstop_core::law::AnyLaw;
+use bumpstop_core::law::{AnyLaw, State};
 use bumpstop_core::method::adaptive::{self, Adaptive, PairName, Resolution, Tolerances};
 use bumpstop_core::method::fixed_step::Step;
 use bumpstop_core::method::one_step::{
@@ -31,7 +31,7 @@ pub(crate) type Parameters = HashMap<String, f64>;
 #[pyfunction]
 #[pyo3(signature = (system, laws, forcing, displacement, velocity, duration, method, dt=None,
                     beyond_stability_limit=false, tolerances=None, parameters=None, progress=None,
-                    exact_flights=true))]
+                    exact_flights=true, states=None))]
 #[allow(clippy::too_many_arguments)] // mirrors the Python signature
 pub fn simulate(
     py: Python<'_>,
@@ -48,6 +48,7 @@ pub fn simulate(
     parameters: Option<Parameters>,
     progress: Option<Py<PyAny>>,
     exact_flights: bool,
+    states: Option<Vec<StateParts>>,
 ) -> PyResult<History> {
     let parameters = parameters.unwrap_or_default();
     let tolerances = tolerances.map(|(relative, absolute)| Tolerances {
@@ -64,6 +65,10 @@ pub fn simulate(
         values(&velocity),
         duration,
     )
+    .and_then(|problem| match states {
+        Some(states) => problem.with_states(states.into_iter().map(state).collect()),
+        None => Ok(problem),
+    })
     .map(Arc::new)
     .map_err(core_error)?;
     let solved = timed(py, Reporter::new(progress, duration), |observer| {
@@ -73,6 +78,14 @@ pub fn simulate(
     match laws.iter().find_map(LawPart::raised) {
         Some(raised) => Err(raised),
         None => solved,
+    }
+}
+
+fn state((number, part, first, second): StateParts) -> State {
+    State {
+        number,
+        part,
+        memory: [first, second],
     }
 }
 

@@ -139,6 +139,9 @@ def made(
     if (blamed := too_stiff(problem)) is not None:
         raise blamed
     model = canonical_form(problem)
+    if model.states is not None:
+        what = "goes on with what the laws of another run remember, which a batch does not"
+        raise InputError(what, key="problem", hint="take bs.study, or simulate it by itself")
     stops = {law.name: number for number, law in enumerate(problem.laws)}
     plain = [name for name, number in stops.items() if type(model.laws[number]) is _core.Stop]
     varied, most = [], stiffest(problem)

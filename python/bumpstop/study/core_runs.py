@@ -99,7 +99,7 @@ class CoreRuns:
         model = canonical_form(problem)
         plain = all(type(law) is _core.Stop for law in model.laws)
         quantities = core_quantities(problem, outputs)
-        if method not in ("auto", "exact") or not plain or quantities is None:
+        if method not in ("auto", "exact") or not plain or quantities is None or model.states:
             return None
         if changing_speed(problem) is not None or too_stiff(problem) is not None:
             return None

@@ -16,7 +16,7 @@ pub(crate) struct Moment<'a> {
     pub velocity: &'a [f64],
 }
 
-/// Sets the laws' states at the start, each from the motion that the structure would have without
+/// Sets the laws' states at the start: as the problem tells them, or each from the motion that the structure would have without
 /// that law; returns whether one of them changes. One that is just touched is decided by
 /// accelerations, and so by what the others push: they are gone through until nothing changes.
 /// Rigid stops stay as they are, and push with the reactions of those that rest.
@@ -26,6 +26,17 @@ pub(crate) fn initial_states<L: Law>(
     moment: Moment<'_>,
 ) -> bool {
     let soft = |law: &L| law.restitution().is_none();
+    if !problem.states.is_empty() {
+        let laws = problem.laws.iter().zip(&problem.states);
+        for (state, (_, told)) in states
+            .iter_mut()
+            .zip(laws)
+            .filter(|(_, (law, _))| soft(law))
+        {
+            *state = *told;
+        }
+        return false;
+    }
     let mut changes = false;
     for _ in 0..problem.laws.len() {
         let mut settled = true;

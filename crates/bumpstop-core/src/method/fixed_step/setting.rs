@@ -15,6 +15,8 @@ pub(crate) struct Setting<'a, P> {
     /// Modal velocities at t = 0.
     pub velocity: &'a [f64],
     pub laws: Vec<&'a P>,
+    /// Those of the laws at t = 0, if the problem tells them.
+    states: &'a [State],
 }
 
 impl<'a, P: Law> Setting<'a, P> {
@@ -26,6 +28,7 @@ impl<'a, P: Law> Setting<'a, P> {
             displacement: &problem.displacement,
             velocity: &problem.velocity,
             laws,
+            states: &problem.states,
         }
     }
 
@@ -78,7 +81,8 @@ impl<'a, P: Law> Setting<'a, P> {
         let law = self.laws[number];
         let [position, velocity] = self.start_from_obstacle(number);
         let motion = LocalMotion::of(position, velocity);
-        let before = law.initial_state(&motion, |_| motion);
+        let told = self.states.get(number).copied();
+        let before = told.unwrap_or_else(|| law.initial_state(&motion, |_| motion));
         law.sampled_state(before, &position, &velocity)
     }
 
