@@ -6,7 +6,7 @@ use crate::number::Number;
 /// One straight piece of the function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Segment {
-    /// Where it begins, or for the first one where it ends.
+    /// Its point nearest to zero: no constant cancels where the function is small there.
     origin: f64,
     /// Value and integral there.
     value: f64,
@@ -93,36 +93,37 @@ impl Polyline {
     }
 }
 
-/// The segments of a function that is `home` at the origin, and their integrals from there.
+/// The segments of a function that is `home` at the origin, from there outward, and their integrals.
 fn segments(breaks: &[f64], slopes: &[f64], home: f64) -> Vec<Segment> {
-    let mut segments: Vec<Segment> = (slopes.iter().enumerate())
-        .map(|(i, slope)| Segment {
-            origin: breaks.get(i.saturating_sub(1)).copied().unwrap_or(0.0),
-            value: 0.0,
+    let at_home = breaks.iter().filter(|b| **b <= 0.0).count();
+    let mut segments: Vec<Segment> = (slopes.iter())
+        .map(|slope| Segment {
+            origin: 0.0,
+            value: home,
             integral: 0.0,
             slope: *slope,
         })
         .collect();
-    for i in 1..segments.len() {
-        let (before, here) = (segments[i - 1], segments[i].origin);
-        segments[i].value = before.value_at(here);
-        segments[i].integral = before.integral_at(here);
+    for i in at_home + 1..segments.len() {
+        segments[i] = segments[i - 1].bent(breaks[i - 1], slopes[i]);
     }
-    let at_home = breaks.iter().filter(|b| **b <= 0.0).count();
-    let shift = segments[at_home].value_at(0.0) - home;
-    // Another value at the origin adds its own integral.
-    for segment in &mut segments {
-        segment.value -= shift;
-        segment.integral -= shift * segment.origin;
-    }
-    let integral = segments[at_home].integral_at(0.0);
-    for segment in &mut segments {
-        segment.integral -= integral;
+    for i in (0..at_home).rev() {
+        segments[i] = segments[i + 1].bent(breaks[i], slopes[i]);
     }
     segments
 }
 
 impl Segment {
+    /// The segment that goes on from a point of this one at another slope.
+    fn bent(&self, origin: f64, slope: f64) -> Self {
+        Self {
+            origin,
+            value: self.value_at(origin),
+            integral: self.integral_at(origin),
+            slope,
+        }
+    }
+
     /// The function, along the line of this segment.
     #[inline(always)]
     pub fn value_at<T: Number>(&self, point: T) -> T {
@@ -135,5 +136,43 @@ impl Segment {
     pub fn integral_at<T: Number>(&self, point: T) -> T {
         let beyond = point - T::of(self.origin);
         T::of(self.integral) + beyond * (T::of(self.value) + T::of(0.5 * self.slope) * beyond)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NAMES: Names = Names {
+        breaks: "breaks",
+        slopes: "slopes",
+        distance: "distance",
+    };
+
+    #[test]
+    fn small_values_beside_large_breaks_lose_no_digits() {
+        let line = Polyline::new(vec![-0.3, 0.7], &[4e3, 1e3, 9e3], 0.0, &NAMES).unwrap();
+        for point in [1e-300, -3e-17, 2e-9] {
+            let segment = line.segment(line.number_at(point));
+            assert_eq!(segment.value_at(point), 1e3 * point);
+            assert_eq!(segment.integral_at(point), point * (500.0 * point));
+        }
+    }
+
+    #[test]
+    fn values_and_integrals_are_those_of_straight_pieces() {
+        let line = Polyline::new(vec![-2.0, -1.0, 3.0], &[5.0, 1.0, 2.0, 8.0], 7.0, &NAMES);
+        let line = line.unwrap();
+        for (point, value, integral) in [
+            (-3.0, -1.0, -12.0),
+            (-1.5, 4.5, -8.375),
+            (-1.0, 5.0, -6.0),
+            (2.0, 11.0, 18.0),
+            (4.0, 21.0, 47.0),
+        ] {
+            let segment = line.segment(line.number_at(point));
+            assert_eq!(segment.value_at(point), value);
+            assert_eq!(segment.integral_at(point), integral);
+        }
     }
 }

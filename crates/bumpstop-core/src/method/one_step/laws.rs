@@ -26,6 +26,9 @@ const ITERATIONS: [usize; 2] = [20, 40];
 /// A residual counts as zero down to this many times the rounding of what it is made of.
 const ROUNDINGS: f64 = 64.0;
 
+/// Numbers below this one lose digits as they are rounded off: nothing counts as smaller.
+const SMALLEST: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
 /// Sweeps over all forces, one after the other, where no iteration of them together ends.
 const SWEEPS: usize = 4000;
 
@@ -289,7 +292,7 @@ impl<'a, L: Law> Laws<'a, L> {
             let (to, sizes) = (&mut motion[order], &mut sizes[order]);
             to.copy_from_slice(&self.free[order]);
             for (size, free) in sizes.iter_mut().zip(&*to) {
-                *size = free.abs();
+                *size = free.abs() + SMALLEST;
             }
             for (i, row) in pushes.on[order].chunks_exact(count).enumerate() {
                 for (push, force) in row.iter().zip(&*forces) {
@@ -328,7 +331,7 @@ impl<'a, L: Law> Laws<'a, L> {
             for c in 0..count {
                 let known = iterate.forces[first + c];
                 let residual = force[c] - known;
-                let mut size = force[c].abs() + known.abs();
+                let mut size = force[c].abs() + known.abs() + SMALLEST;
                 for order in 0..2 {
                     let slopes = slopes[order][c];
                     size += (slopes.iter().zip(&sizes[order]))
