@@ -127,6 +127,23 @@ def test_the_stability_limit_is_that_of_the_matrices() -> None:
         bs.simulate(free, "central_difference", dt=1.1 * limit, beyond_stability_limit=True)
 
 
+def test_a_damper_of_a_stop_throws_nothing_back() -> None:
+    """Up to c h = 2 m what it stops goes on the way it went; longer steps are refused."""
+    support = bs.Support(nodes="P", fixed=("dy", "dz", "drx", "dry", "drz"))
+    mass = bs.PointMass("m", node="P", mass=1.0)
+    structure = bs.Structure(nodes={"P": (0, 0, 0)}, masses=[mass], supports=[support])
+    stop = bs.Stop("stop", node="P", normal=(-1, 0, 0), gap=0.0, stiffness=1.0, damping=1e5)
+    start = bs.NodalState(velocity={("P", "dx"): 1.0})
+    model = bs.FullModel.from_structure(structure, mass="lumped")
+    problem = bs.Problem(model, laws=[stop], initial=start, duration=0.01)
+    with pytest.raises(bs.InputError, match="above the stability limit of 2e-05 s"):
+        bs.simulate(problem, "central_difference", dt=2e-4)
+    run = bs.simulate(problem, "central_difference", dt=1.9e-5)
+    way = run.sample("displacement", "P", "dx")
+    assert way.min() >= 0.0
+    assert way.max() < 2e-5
+
+
 def test_an_oscillator_under_a_steady_force_goes_as_its_closed_form_says() -> None:
     mass = bs.PointMass("m", node="P", mass=2.0)
     spring = bs.Spring("k", node="P", stiffness=(50, 0, 0, 0, 0, 0))

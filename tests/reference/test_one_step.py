@@ -112,6 +112,143 @@ def test_steps_beyond_the_limit_blow_up_and_are_refused(
         bs.simulate(problem, method, dt=1.01 * limit, beyond_stability_limit=True, **options)
 
 
+@pytest.mark.parametrize("method", ["newmark", "exponential"])
+@pytest.mark.parametrize("turn", [0.0, 0.3, 3.1, 3.2, 40.0])
+@pytest.mark.parametrize("stiffness", [1e-2, 11.0, 13.0, 1e3, 1e9])
+def test_springs_of_any_stiffness_leave_the_energy_as_it_is(
+    method: str, turn: float, stiffness: float
+) -> None:
+    """Of a free mode and one that turns by some angle in each step of 1 s, tied by a spring."""
+    shape = np.array([0.8, 0.6])
+    omega = np.array([0.0, turn])
+    basis = bs.ModalBasis.from_modes(
+        frequency=[0.0, turn / (2 * np.pi)], damping=0.0, shapes={("P", "dx"): list(shape)}
+    )
+    spring = bs.SpringLaw("k", node="P", direction=(1, 0, 0), stiffness=(stiffness,), breaks=())
+    start = bs.ModalState(displacement=[1.0, -0.4], velocity=[0.0, 0.2])
+    problem = bs.Problem(basis, laws=[spring], initial=start, duration=400.0)
+    response = bs.simulate(problem, method, dt=1.0)
+    q, v = (response.history.motion(np.arange(0.0, 400.0), order) for order in (0, 1))
+    energy = (v**2).sum(1) + ((omega * q) ** 2).sum(1) + stiffness * (q @ shape) ** 2
+    assert energy == pytest.approx(energy[0], rel=1e-6)
+
+
+def test_dampers_of_laws_bound_the_step_of_exponentials() -> None:
+    """A mode that turns by more than half a circle a step turns back between what a damper sees."""
+    damper = bs.DamperLaw("c", node="P", direction=(1, 0, 0), damping=(1.0,), breaks=())
+    problem = oscillator(0.5, laws=[damper], duration=300.0)
+    stable = bs.simulate(problem, "exponential", dt=0.9)
+    assert np.abs(displacements(stable, [290.0])).max() < 1.0
+    with pytest.raises(bs.InputError, match="above the stability limit of 1 s of the exponential"):
+        bs.simulate(problem, "exponential", dt=1.3)
+    with pytest.raises(bs.ComputationError, match="the motion blows up"):
+        bs.simulate(problem, "exponential", dt=1.3, beyond_stability_limit=True)
+
+
+@pytest.mark.parametrize("method", [*SCHEMES, "moreau_jean"])
+def test_motions_small_beside_the_breaks_of_a_law_are_those_of_its_segment(method: str) -> None:
+    def run(stiffness: tuple[float, ...], breaks: tuple[float, ...]) -> Array:
+        spring = bs.SpringLaw(
+            "k", node="P", direction=(1, 0, 0), stiffness=stiffness, breaks=breaks
+        )
+        start = bs.ModalState(displacement=[1e-9])
+        problem = oscillator(laws=[spring], initial=start, duration=0.5)
+        return displacements(bs.simulate(problem, method, dt=1e-3), np.linspace(0.0, 0.5, 101))
+
+    found, expected = run((4e3, 1e3, 4e3), (-2e-3, 2e-3)), run((1e3,), ())
+    assert found == pytest.approx(expected, abs=1e-21)
+
+
+@pytest.mark.parametrize("method", [*SCHEMES, "moreau_jean"])
+@pytest.mark.parametrize(
+    ("name", "variant"),
+    [("damper-law", "valve"), ("spring-law", "play"), ("moving-stop", "coming")],
+)
+def test_laws_of_segments_and_moving_ones_converge(method: str, name: str, variant: str) -> None:
+    problem = bs.load_case(CASES / name / "case.toml").problems[variant]
+    exact = bs.simulate(problem, "exact")
+    coarse, fine = (
+        error(bs.simulate(problem, method, dt=problem.duration / steps), exact)
+        for steps in (500, 4000)
+    )
+    assert fine < 0.1 * coarse
+    assert fine < 1e-4
+
+
+@pytest.mark.parametrize("method", [*SCHEMES, "moreau_jean"])
+def test_a_motion_dies_out_on_a_damped_stop(method: str) -> None:
+    """To numbers so small that they lose their digits."""
+    stop = bs.Stop("stop", node="P", normal=(-1, 0, 0), gap=0.0, stiffness=1e4, damping=20.0)
+    start = bs.ModalState(velocity=[1.0])
+    problem = oscillator(50.0, damping=0.3, laws=[stop], initial=start)
+    response = bs.simulate(problem, method, dt=1e-3)
+    assert np.abs(displacements(response, [9.99])).max() < 1e-290
+
+
+def between_walls(model: bs.ModalBasis | bs.FullModel) -> bs.Problem:
+    """A unit mass of 1 m/s that goes to and fro between two stiff walls."""
+    walls = [
+        bs.Stop(name, node="P", normal=(side, 0, 0), gap=0.01, stiffness=1e6)
+        for name, side in (("left", 1), ("right", -1))
+    ]
+    start = bs.NodalState(velocity={("P", "dx"): 1.0})
+    return bs.Problem(model, laws=walls, initial=start, duration=20.0)
+
+
+def unit_mass() -> bs.Structure:
+    support = bs.Support(nodes="P", fixed=("dy", "dz", "drx", "dry", "drz"))
+    mass = bs.PointMass("m", node="P", mass=1.0)
+    return bs.Structure(nodes={"P": (0, 0, 0)}, masses=[mass], supports=[support])
+
+
+@pytest.mark.parametrize("method", ["newmark", "generalized_alpha", "exponential", "moreau_jean"])
+def test_energy_that_contacts_add_is_found_out(method: str) -> None:
+    """Steps of three radians of the contact, at which no linear structure would grow."""
+    problem = between_walls(bs.ModalBasis.from_structure(unit_mass(), modes=1))
+    message = r"blows up: at t = .*e2 times .* mode 1; take a smaller step, a tenth of the shortest"
+    with pytest.raises(bs.ComputationError, match=message):
+        bs.simulate(problem, method, dt=3e-3)
+    # A tenth of the time that a contact lasts, as the message says.
+    calm = bs.simulate(problem, method, dt=3e-5)
+    assert np.abs(calm.sample("velocity", "P", "dx")).max() < 2.0
+
+
+def test_a_full_model_that_blows_up_says_where() -> None:
+    problem = between_walls(bs.FullModel.from_structure(unit_mass()))
+    with pytest.raises(bs.ComputationError, match=r"blows up: at t = .* most of it in dof 1 of"):
+        bs.simulate(problem, "newmark", dt=3e-3)
+
+
+@pytest.mark.parametrize("method", [*SCHEMES, "moreau_jean"])
+@pytest.mark.parametrize(
+    "time",
+    [bs.Harmonic(1.0, sine=1.0), bs.Polynomial([0.0, 1.0]), bs.Polynomial([0.0, 0.0, 0.0, 1.0])],
+)
+def test_loads_that_move_what_was_at_rest_are_no_blow_up(method: str, time: Any) -> None:
+    push = bs.NodalForce("push", node="P", force=(1e3, 0, 0), time=time)
+    still = bs.ModalState(displacement=[0.0])
+    for dt in (1e-3, 0.1, 0.25):
+        problem = oscillator(loads=[push], initial=still)
+        assert bs.simulate(problem, method, dt=dt).steps > 0
+
+
+def test_blow_ups_are_seen_as_they_begin() -> None:
+    problem = oscillator(1 / (2 * np.pi), duration=400.0)
+    with pytest.raises(bs.ComputationError, match=r"t = 1\.2e1 s"):
+        bs.simulate(problem, "devogelaere", dt=6.0, beyond_stability_limit=True)
+
+
+def test_the_swinging_energy_of_symplectic_euler_is_no_blow_up() -> None:
+    """Near the limit it is up to (1 + h w / 2) / (1 - h w / 2) of itself: 199 here."""
+    start = bs.ModalState(displacement=[1.0], velocity=[-1.0])
+    problem = oscillator(1 / (2 * np.pi), initial=start, duration=4000.0)
+    response = bs.simulate(problem, "symplectic_euler", dt=1.98)
+    energy = response.energy_terms()
+    assert 100 < (energy["kinetic"] + energy["elastic"]).max() < 200
+    with pytest.raises(bs.ComputationError, match="the motion blows up"):
+        bs.simulate(problem, "symplectic_euler", dt=2.01, beyond_stability_limit=True)
+
+
 def test_damping_lowers_the_limit_of_devogelaere() -> None:
     """Where 3 w^2 h^2 + 4 c h = 24."""
     ratio, omega = 0.8, 1.0

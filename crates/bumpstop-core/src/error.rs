@@ -311,21 +311,21 @@ pub enum Error {
     },
     /// A run with steps blew up.
     #[error(
-        "the motion blows up: at t = {time:e} s there is {ratio:.0e} times the energy that was there and was given{}; take a smaller step, or a method that is stable with any step, such as newmark",
-        most_of_it(*mode)
+        "the motion blows up: at t = {time:e} s there is {ratio:.0e} times the energy that was there and was given{}; take a smaller step, a tenth of the shortest contact or less, or a method that follows the switches: exact, or an adaptive one",
+        most_of_it(*place)
     )]
     BlowUp {
         /// Instant, in s.
         time: f64,
         /// Energy from nowhere, over what was there and was given.
         ratio: f64,
-        /// The mode that has most of it, counted from 0; a full model has none.
-        mode: Option<usize>,
+        /// What has most of it, if that is told.
+        place: Option<Place>,
     },
     /// A run whose steps follow the motion gained energy from nowhere.
     #[error(
         "the motion blows up: at t = {time:e} s there is {ratio:.0e} times the energy that was there and was given{}; take a finer tolerance or more points per period, and look whether a law gives energy that it does not tell",
-        most_of_it(Some(*mode))
+        most_of_it(Some(Place::Mode(*mode)))
     )]
     RanAway {
         /// Instant, in s.
@@ -455,8 +455,19 @@ pub fn check_length(what: &'static str, values: &[f64], expected: usize) -> Resu
 }
 
 /// Where most of an energy is, for a message.
-fn most_of_it(mode: Option<usize>) -> String {
-    mode.map_or_else(String::new, |mode| {
-        format!(", most of it in mode {}", mode + 1)
-    })
+/// What of a structure moves most.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// A mode, counted from 0.
+    Mode(usize),
+    /// A dof of a full model, counted from 0.
+    Dof(usize),
+}
+
+fn most_of_it(place: Option<Place>) -> String {
+    match place {
+        Some(Place::Mode(mode)) => format!(", most of it in mode {}", mode + 1),
+        Some(Place::Dof(dof)) => format!(", most of it in dof {} of the free ones", dof + 1),
+        None => String::new(),
+    }
 }

@@ -43,13 +43,14 @@ pub fn simulate<L: Law>(
     let mut record = StepRecord::new(problem, step.dt, VelocityRule::Backward)?;
     check_forces(NAME, &problem.laws)?;
     check_flows(NAME, &problem.laws)?;
-    check_step(NAME, step, stability_limit(&problem.system, &problem.laws))?;
+    let limit = stability_limit(&problem.system, &problem.laws);
+    check_step(NAME, step, limit)?;
     let march = SymplecticEuler {
         record: &mut record,
         observer,
     };
     run(march, problem)?;
-    check_growth(problem, &record)?;
+    check_growth(problem, &record, limit)?;
     let events = record.events();
     Ok(History::of_steps(problem, NAME, record, events))
 }

@@ -2,7 +2,7 @@
 
 use super::StepRecord;
 use crate::energy::{self, Growth, Ledger};
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::law::{Law, Local, State, power};
 use crate::problem::Problem;
 use crate::system::Coupling;
@@ -10,26 +10,32 @@ use crate::system::Coupling;
 /// Steps between two looks at the energy of the structure.
 const STRIDE: usize = 16;
 
-/// Refuses a record whose motion blew up.
+/// Refuses a record whose motion blew up, with the largest step that the scheme is stable with.
 ///
 /// # Errors
 /// [`Error::BlowUp`], or [`Error::Overflow`] where it left the range of numbers at once.
-pub(crate) fn check_growth<L: Law>(problem: &Problem<L>, record: &StepRecord) -> Result<()> {
+pub(crate) fn check_growth<L: Law>(
+    problem: &Problem<L>,
+    record: &StepRecord,
+    limit: f64,
+) -> Result<()> {
     if is_calm(problem, record) {
         return Ok(());
     }
     let mut growth = None;
+    let swing = energy::swing(record.dt / limit);
     let modes = problem.system.modes();
     for (n, ledger) in step_ledgers(problem, record).iter().enumerate() {
-        let growth = growth.get_or_insert_with(|| Growth::new(ledger));
+        let growth = growth.get_or_insert_with(|| Growth::of_steps(ledger, swing, 0.0));
         if let Some(ratio) = growth.sees(ledger) {
             let mut v = vec![0.0; modes];
             record.velocity(n, &mut v);
             let omega2 = problem.system.omega2();
+            let mode = energy::largest_share(omega2, record.displacement(n), &v);
             return Err(Error::BlowUp {
                 time: n as f64 * record.dt,
                 ratio,
-                mode: Some(energy::largest_share(omega2, record.displacement(n), &v)),
+                place: Some(Place::Mode(mode)),
             });
         }
     }

@@ -23,6 +23,8 @@ pub(super) struct Account<'a, L> {
     damped: f64,
     given: f64,
     powers: Powers,
+    /// The accelerations at the start squared, over the mass.
+    inertia: f64,
     /// The displacement at the start of the next step.
     before: Vec<f64>,
     /// Room for a product, and for loads.
@@ -50,10 +52,14 @@ impl<'a, L: Law> Account<'a, L> {
             damped: 0.0,
             given: 0.0,
             powers: Powers::default(),
+            inertia: 0.0,
             before: motion.q.clone(),
             room: vec![0.0; problem.system.dofs()],
         };
         account.look(0.0, motion);
+        account.room.fill(0.0);
+        add_product(&problem.system.mass, 1.0, &motion.a, &mut account.room);
+        account.inertia = dot(&motion.a, &account.room);
         account
     }
 
@@ -132,5 +138,9 @@ impl<L: Law> End for Account<'_, L> {
             powers.constant + powers.changing,
         ];
         to.extend(v.iter().chain(a).chain(&rates));
+    }
+
+    fn inertia(&self) -> Option<f64> {
+        Some(self.inertia)
     }
 }

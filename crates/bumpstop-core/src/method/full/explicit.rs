@@ -8,6 +8,9 @@
 //! A step is stable while `h^2 K + 4 h C < 4 M`: at the limit a root of the scheme passes -1. From
 //! the largest eigenvalues k and c of K and C over M, `h = 2 / (c + sqrt(c^2 + k))`.
 //!
+//! The laws' dampers are solved for and ask for no step to be stable; but with `c h > 2`, c over the
+//! mass that they move, one would throw back what it is to stop, so that such a step is refused, too.
+//!
 //! Source: T. Belytschko, W. K. Liu, B. Moran, Nonlinear Finite Elements for Continua and
 //! Structures, 2000, section 6.2.
 
@@ -30,7 +33,8 @@ pub(super) fn stability_limit<L: Law>(problem: &FullProblem<L>) -> Result<f64> {
         None => 0.0,
     };
     let stiffness = highest::with_laws(problem)?;
-    Ok(2.0 / (damping + (damping * damping + stiffness).sqrt()))
+    let stable = 2.0 / (damping + (damping * damping + stiffness).sqrt());
+    Ok(stable.min(2.0 / highest::damping_of_laws(problem)?))
 }
 
 /// The scheme for one problem and step.

@@ -6,7 +6,7 @@
 use super::FullProblem;
 use super::system::{add_product, dot};
 use crate::error::{Error, Result};
-use crate::law::Law;
+use crate::law::{COORDINATES, Law, Local, Piece};
 use crate::modes::factor::Factor;
 use crate::modes::pencil::Pencil;
 use crate::sparse::SparseMatrix;
@@ -83,17 +83,33 @@ fn from_below(matrix: &SparseMatrix, mass: &SparseMatrix) -> Result<f64> {
 /// # Errors
 /// As [`eigenvalue`].
 pub(super) fn with_laws<L: Law>(problem: &FullProblem<L>) -> Result<f64> {
-    let system = &problem.system;
-    let factor = Factor::of(&system.mass)?;
+    let own = eigenvalue(&problem.system.stiffness, &problem.system.mass)?;
+    Ok(own + of_laws(problem, |piece| &piece.stiffness)?)
+}
+
+/// That of the dampers of all laws in their stiffest states over the mass, from above.
+///
+/// # Errors
+/// [`Error::Memory`]
+pub(super) fn damping_of_laws<L: Law>(problem: &FullProblem<L>) -> Result<f64> {
+    of_laws(problem, |piece| &piece.damping)
+}
+
+/// What the laws' own matrices add to an eigenvalue.
+fn of_laws<L: Law>(
+    problem: &FullProblem<L>,
+    matrix: fn(&Piece) -> &[Local<f64>; COORDINATES],
+) -> Result<f64> {
+    let factor = Factor::of(&problem.system.mass)?;
     let mut scratch = factor.scratch()?;
-    let mut total = eigenvalue(&system.stiffness, &system.mass)?;
+    let mut total = 0.0;
     for law in &problem.seen.laws {
-        let stiffness = law.stiffest().stiffness;
+        let piece = law.stiffest();
         for (coordinate, row) in law.rows().iter().enumerate() {
             let row = super::structure::whole(problem, row);
             let mut moved = row.clone();
             factor.solve_one(&mut moved, &mut scratch);
-            total += stiffness[coordinate][coordinate] * dot(&row, &moved);
+            total += matrix(&piece)[coordinate][coordinate] * dot(&row, &moved);
         }
     }
     Ok(total)

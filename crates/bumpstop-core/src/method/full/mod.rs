@@ -17,7 +17,7 @@ use super::fixed_step::{Step, check_forces, check_step};
 use super::one_step::{AlphaFamily, Laws, Motion, Scheme, SchemeName, Trace, Weights};
 use super::polynomial_steps::Layout;
 use super::{Observer, central_difference, check_memories, check_not_stepped, observe};
-use crate::error::{Error, Result, check_finite, check_length};
+use crate::error::{Error, Place, Result, check_finite, check_length};
 use crate::forcing::Forcing;
 use crate::history::History;
 use crate::law::Law;
@@ -26,6 +26,7 @@ use account::Account;
 use explicit::CentralDifference;
 use std::sync::Arc;
 use structure::Body;
+use system::add_product;
 
 /// How often the observer is asked, in steps.
 const STEPS_BETWEEN_OBSERVATIONS: usize = 16;
@@ -141,7 +142,7 @@ pub fn simulate<L: Law>(
     check_not_stepped(name, &seen.laws)?;
     let limit = scheme.stability_limit(problem)?;
     check_step(name, step, limit)?;
-    trace.watch_growth(limit);
+    trace.know_limit(limit);
     let trace = match scheme {
         FullScheme::CentralDifference => run(
             problem,
@@ -166,6 +167,19 @@ fn family<L: Law>(
 ) -> Result<AlphaFamily<Body<'_, L>>> {
     let body = Body::new(problem, weights.matrix(h))?;
     AlphaFamily::new(body, &problem.seen.laws, weights, h)
+}
+
+/// Says which dof has most of the kinetic energy of a motion that blew up.
+fn placed<L>(error: Error, problem: &FullProblem<L>, motion: &Motion) -> Error {
+    let Error::BlowUp { time, ratio, .. } = error else {
+        return error;
+    };
+    let mut momentum = vec![0.0; motion.v.len()];
+    add_product(&problem.system.mass, 1.0, &motion.v, &mut momentum);
+    let shares = momentum.iter().zip(&motion.v).map(|(p, v)| p * v);
+    let most = shares.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
+    let place = most.map(|(dof, _)| Place::Dof(dof));
+    Error::BlowUp { time, ratio, place }
 }
 
 /// Steps from t = 0 to the end.
@@ -193,7 +207,7 @@ fn run<'a, L: Law>(
             return Err(Error::Overflow { time: span[1] });
         }
         account.go_on(span[1], &motion);
-        trace.add(span, &account, &laws)?;
+        (trace.add(span, &account, &laws)).map_err(|error| placed(error, problem, &motion))?;
     }
     Ok(trace)
 }

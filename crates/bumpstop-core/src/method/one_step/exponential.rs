@@ -1,8 +1,17 @@
-//! The modal exponential scheme: each mode exactly, under forces that change linearly over a step.
+//! The modal exponential scheme: each mode exactly, under loads that change linearly over a step and
+//! forces of laws that are held at the mean of both its ends.
 //!
 //! Second order in what laws and loads do; exact for a linear structure under loads that are
-//! constant or linear in each step, whatever the step, which is stable for that reason. The forces
-//! of laws at the end of a step are part of what is solved for.
+//! constant or linear in each step, whatever the step. The forces of laws at the end of a step are
+//! part of what is solved for.
+//!
+//! Any step is stable among springs, however stiff, that neither open nor close. A force f that is
+//! held does the work `f (x1 - x)` on a structure that goes exactly; where f is `-k (x + x1) / 2`
+//! that is what the springs give, `k (x x - x1 x1) / 2`, so that the energy of both does not
+//! grow. (Forces of laws that change linearly, as loads do, would be stable no further than to
+//! `h omega = 2 sqrt(3)`, and not even there beside a mode that turns by nearly pi in a step.) A
+//! damper takes `c (v + v1) (x1 - x) / 2`, which is not negative in any mode that turns by less than pi
+//! in a step: a faster one turns back between the instants at which its rate is seen.
 //!
 //! Source: J. Certaine, The solution of ordinary differential equations with large time constants,
 //! in Mathematical Methods for Digital Computers, 1960, with the linear interpolation of the force;
@@ -15,10 +24,23 @@ use super::structure::resist;
 use super::{Motion, Scheme};
 use crate::error::Result;
 use crate::law::Law;
+use crate::method::fixed_step::laws_damping;
 use crate::problem::Problem;
+use crate::system::ModalSystem;
+use std::f64::consts::PI;
 
 /// The method's name.
 pub const NAME: &str = "exponential";
+
+/// Largest step at which all modes turn by no more than half a circle, in s, where laws damp; infinite
+/// where none does.
+pub(super) fn stability_limit<L: Law>(system: &ModalSystem, laws: &[L]) -> f64 {
+    if laws_damping(laws) > 0.0 {
+        PI / system.highest_frequency()
+    } else {
+        f64::INFINITY
+    }
+}
 
 /// Size below which the matrix is halved down, and terms of its series.
 const SMALL: f64 = 0.5;
@@ -47,6 +69,13 @@ impl Propagator {
             [q, v / s, force - change, change]
         };
         Self([row(0, 1.0), row(1, s)])
+    }
+
+    /// What a force at either end makes of displacement or velocity, which acts with half of it all
+    /// along.
+    fn of_mean(&self, order: usize) -> f64 {
+        let [_, _, first, last] = self.0[order];
+        0.5 * (first + last)
     }
 
     fn go(&self, from: [f64; 4]) -> [f64; 2] {
@@ -91,10 +120,10 @@ fn product(a: &Matrix, b: &Matrix) -> Matrix {
 pub(super) struct Exponential<'a, L> {
     problem: &'a Problem<L>,
     propagators: Vec<Propagator>,
-    /// Modal displacements and velocities that unit forces of the laws at the end give.
+    /// Modal displacements and velocities that unit forces of the laws at an end give.
     kicks: [Vec<Vec<f64>>; 2],
     pushes: Pushes,
-    /// Modal forces at both ends.
+    /// Modal loads at both ends, with half the forces of the laws at the start.
     forces: [Vec<f64>; 2],
 }
 
@@ -107,7 +136,7 @@ impl<'a, L: Law> Exponential<'a, L> {
         let kicks = [0, 1].map(|order: usize| {
             let kick = |row: &[f64]| -> Vec<f64> {
                 let both = row.iter().zip(&propagators);
-                both.map(|(r, propagator)| r * propagator.0[order][3])
+                both.map(|(r, propagator)| r * propagator.of_mean(order))
                     .collect()
             };
             rows(&problem.laws).map(kick).collect::<Vec<_>>()
@@ -133,15 +162,16 @@ impl<L: Law> Scheme<L> for Exponential<'_, L> {
         let [before, after] = &mut self.forces;
         self.problem.forcing.at(start, before);
         self.problem.forcing.at(end, after);
-        laws.add_forces(1.0, before);
         let Motion { q, v, a } = motion;
+        a.copy_from_slice(after);
+        laws.add_forces(0.5, before);
+        laws.add_forces(0.5, after);
         for (i, propagator) in self.propagators.iter().enumerate() {
             [q[i], v[i]] = propagator.go([q[i], v[i], before[i], after[i]]);
         }
         laws.meet(&self.pushes, end, q, v)?;
         laws.push(&self.kicks[0], 1.0, q);
         laws.push(&self.kicks[1], 1.0, v);
-        a.copy_from_slice(after);
         laws.add_forces(1.0, a);
         resist(&self.problem.system, q, v, a);
         Ok(())

@@ -81,7 +81,10 @@ impl SchemeName {
         match self {
             Self::Newmark(newmark) => newmark.limit() / highest_frequency(system, laws),
             Self::DeVogelaere => devogelaere::stability_limit(system, laws),
-            _ => f64::INFINITY,
+            Self::Exponential => exponential::stability_limit(system, laws),
+            Self::Hht(_) | Self::GeneralizedAlpha(_) | Self::TrBdf2 | Self::MoreauJean(_) => {
+                f64::INFINITY
+            }
         }
     }
 
@@ -167,7 +170,7 @@ pub fn simulate<L: Law>(
     }
     let limit = scheme.stability_limit(&problem.system, &problem.laws);
     check_step(name, step, limit)?;
-    trace.watch_growth(limit);
+    trace.know_limit(limit);
     let in_family = |weights: Weights| {
         let modes = Modes::new(problem, weights.matrix(h))?;
         AlphaFamily::new(modes, &problem.laws, weights, h)

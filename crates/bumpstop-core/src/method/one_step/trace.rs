@@ -8,7 +8,7 @@
 use super::Motion;
 use super::laws::Laws;
 use crate::energy::{self, Growth};
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::history::Event;
 use crate::law::{Law, State};
 use crate::method::polynomial_steps::{
@@ -19,9 +19,6 @@ use crate::problem::Problem;
 
 /// Degree of the polynomials.
 const DEGREE: usize = 3;
-
-/// How often the energies are looked at, in steps.
-const STEPS_BETWEEN_LOOKS: usize = 16;
 
 /// Of the step, by which its number may exceed a whole one: rounding of a duration.
 const ROUNDING: f64 = 1e-9;
@@ -50,7 +47,8 @@ pub(crate) struct Trace<'a, L> {
     /// The works of the energy ledger so far, and what these say of it.
     works: Vec<f64>,
     growth: Option<Growth>,
-    may_blow_up: bool,
+    /// Times what there is, what the energy of a stable run may seem to be.
+    swing: f64,
     /// Impulses in the step that is kept next.
     percussions: Vec<Percussion>,
 }
@@ -79,6 +77,11 @@ pub(crate) trait End {
     /// Writes their rates at both ends of the step, where the equations of the problem do not say
     /// them; those at the start are what the step before told, unless they change.
     fn rates(&self, _ends: [&mut Vec<f64>; 2]) {}
+
+    /// The accelerations squared, over the whole mass, where they are told.
+    fn inertia(&self) -> Option<f64> {
+        None
+    }
 }
 
 impl End for Motion {
@@ -126,16 +129,15 @@ impl<'a, L: Law> Trace<'a, L> {
             cuts: Vec::new(),
             works: vec![0.0; layout.size() - layout.works],
             growth: None,
-            may_blow_up: false,
+            swing: 1.0,
             percussions: Vec::new(),
             record: PolynomialRecord::new(layout, DEGREE),
         })
     }
 
-    /// Watches the energy, for schemes with a stability limit. Where any step is stable, steps that
-    /// are long beside a mode's period may tell more energy than there is, and nothing grows.
-    pub(crate) fn watch_growth(&mut self, limit: f64) {
-        self.may_blow_up = limit.is_finite();
+    /// Takes the largest step with which the scheme is stable; infinite without one.
+    pub(crate) fn know_limit(&mut self, limit: f64) {
+        self.swing = energy::swing(self.h / limit);
     }
 
     pub(super) fn problem(&self) -> &'a Problem<L> {
@@ -174,11 +176,13 @@ impl<'a, L: Law> Trace<'a, L> {
         self.equations.take_states(&self.states);
         self.take(end);
         self.find_rates(1, 0.0);
-        if self.may_blow_up {
-            let layout = &self.equations.layout;
-            let start = layout.ledger(self.problem, 0.0, &self.states, &self.ends[1]);
-            self.growth = Some(Growth::new(&start));
-        }
+        let layout = &self.equations.layout;
+        let start = layout.ledger(self.problem, 0.0, &self.states, &self.ends[1]);
+        let modes = layout.modes;
+        let squares = || self.rates[1][modes..2 * modes].iter().map(|a| a * a).sum();
+        let inertia: f64 = end.inertia().unwrap_or_else(squares);
+        let jolt = 0.5 * self.h * self.h * inertia;
+        self.growth = Some(Growth::of_steps(&start, self.swing, jolt));
     }
 
     /// Takes what is told of the end of a step.
@@ -259,10 +263,6 @@ impl<'a, L: Law> Trace<'a, L> {
 
     /// Refuses a motion that blows up.
     fn check_growth(&mut self, time: f64) -> Result<()> {
-        let is_last = self.record.steps() == self.steps;
-        if !(is_last || self.record.steps().is_multiple_of(STEPS_BETWEEN_LOOKS)) {
-            return Ok(());
-        }
         let layout = &self.equations.layout;
         let mut numbers = self.ends[1].clone();
         numbers[layout.works..].copy_from_slice(&self.works);
@@ -272,8 +272,12 @@ impl<'a, L: Law> Trace<'a, L> {
         };
         let [q, v] = layout.motion(&numbers);
         let whole = !layout.is_told();
-        let mode = whole.then(|| energy::largest_share(self.problem.system.omega2(), q, v));
-        Err(Error::BlowUp { time, ratio, mode })
+        Err(Error::BlowUp {
+            time,
+            ratio,
+            place: whole
+                .then(|| Place::Mode(energy::largest_share(self.problem.system.omega2(), q, v))),
+        })
     }
 
     /// Makes the cubic of the step, and cuts it at the knots of loads.
