@@ -1,6 +1,7 @@
 import math
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -224,3 +225,39 @@ def test_progress_is_told_between_0_and_1() -> None:
     bs.simulate(long, method="central_difference", dt=1e-5, progress=seen.append)
     assert all(0.0 <= fraction <= 1.0 for fraction in seen)
     assert seen == sorted(seen)
+
+
+@pytest.mark.parametrize("size", [1e155, 1e200, 1e300])
+@pytest.mark.parametrize("method", ["auto", "newmark", "exponential", "dop853"])
+def test_numbers_beyond_all_range_never_become_results(size: float, method: str) -> None:
+    basis = bs.ModalBasis.from_modes(
+        frequency=[5.0, 9.0], damping=[0.01, 0.01], shapes={("P", "dx"): [1.0, 0.5]}
+    )
+    wall = bs.Stop("wall", node="P", normal=(-1, 0, 0), gap=1e-3, stiffness=1e5)
+    push = bs.NodalForce("push", node="P", force=(1.0, 0, 0), time=bs.Harmonic(1.0, sine=size))
+    problem = bs.Problem(basis, laws=[wall], loads=[push], duration=1.0)
+    dt = 1e-4 if method in ("newmark", "exponential") else None
+    with pytest.raises(bs.InputError, match=r"loads\.push: pushes too hard to compute with"):
+        bs.simulate(problem, method, dt=dt)
+
+
+def test_energies_that_are_no_numbers_are_not_told() -> None:
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    response = bs.simulate(bs.Problem(basis, duration=1.0))
+
+    class Lost:
+        def energy_residual(self) -> float:
+            return math.nan
+
+        def energy(self, times: Any) -> Any:
+            terms = dict.fromkeys(
+                ("kinetic", "elastic", "modal_dissipation"), np.full(len(times), np.nan)
+            )
+            works = ("load_work", "circulatory_work", "obstacle_work")
+            shares = dict.fromkeys(("law_stored", "law_dissipated"), np.zeros((0, len(times))))
+            return terms | dict.fromkeys(works, np.zeros(len(times))) | shares
+
+    lost = replace(response, history=Lost())  # type: ignore[arg-type]
+    for reading in (lambda: lost.energy_residual, lambda: lost.energy):
+        with pytest.raises(bs.ComputationError, match="energies leave the range of numbers"):
+            reading()

@@ -11,6 +11,7 @@ from bumpstop.problem import Law, Problem
 
 __all__ = [
     "ADAPTIVE_METHODS",
+    "ASKED",
     "FIXED_STEP_METHODS",
     "FULL_METHODS",
     "METHODS",
@@ -24,9 +25,14 @@ __all__ = [
     "check_method",
     "check_options",
     "checked_parameters",
+    "choose",
     "smoothness",
     "usable_options",
 ]
+
+
+ASKED = "asked for"
+"""Why a method is taken that was not left open."""
 
 
 class Range(NamedTuple):
@@ -130,9 +136,26 @@ def smoothness(law: Law) -> str:
     return reason
 
 
-def usable_options(method: str, options: Mapping[str, object]) -> dict[str, Any]:
-    """Return those options, among many, that a method takes."""
-    return {key: value for key, value in options.items() if key in OPTIONS[method]}
+def choose(method: str, problem: Problem) -> tuple[str, str]:
+    """Return the method to take where ``"auto"`` is asked for, or the one that is, and why."""
+    if method != "auto":
+        return method, ASKED
+    if problem.basis.unreduced:
+        return "newmark", "a full model is stepped through time"
+    for law in problem.laws:
+        reason = smoothness(law)
+        if reason:
+            return "dop853", f"{law.name!r} is not piecewise linear: {reason}"
+    turning = changing_speed(problem)
+    if turning is not None:
+        return "dop853", f"{turning} changes in speed"
+    return "exact", "all laws are piecewise linear"
+
+
+def usable_options(method: str, options: Mapping[str, object], problem: Problem) -> dict[str, Any]:
+    """Return those options, among many, that a method takes; ``"auto"`` as it does the problem."""
+    chosen, _ = choose(method, problem)
+    return {key: value for key, value in options.items() if key in OPTIONS[chosen]}
 
 
 def _refuse_full_model(method: str, problem: Problem) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, SupportsIndex
 
 from bumpstop.arguments import FloatArray, count, one_of
+from bumpstop.errors import ComputationError
 from bumpstop.instants import Grid, checked_times
 from bumpstop.labelled import modes_over_time, over_time
 from bumpstop.quantities import STATE, dof_units
@@ -151,8 +153,16 @@ class Response:
 
         Looked at after each step, or for the exact method at the switches and at the end of
         the run; between switches `energy` has it at any instant.
+
+        Raises
+        ------
+        ComputationError
+            If energies have left the range of numbers.
         """
-        return self.history.energy_residual()
+        residual = self.history.energy_residual()
+        if not math.isfinite(residual):
+            raise ComputationError("the energies leave the range of numbers; check the units")
+        return residual
 
     def at(self, times: ArrayLike) -> Response:
         """Return this response tabulated at other instants.

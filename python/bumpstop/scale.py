@@ -9,7 +9,7 @@ the damping of modes, and 7e9 rad in a run.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,9 +18,10 @@ from bumpstop.errors import InputError
 
 if TYPE_CHECKING:
     from bumpstop.arguments import FloatArray
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.problem import Law, Problem
 
-__all__ = ["out_of_scale", "stiffest", "too_stiff"]
+__all__ = ["out_of_scale", "stiffest", "too_heavy", "too_stiff"]
 
 STIFFEST = 1e10
 """Stiffness of a law beside that of the stiffest mode where it acts."""
@@ -34,6 +35,10 @@ CRITICAL = "is {:.2g} times critical"
 MOST_TURNS = 1e13
 """Angle in rad through which the motion against a law may turn in a run: its instants are known to
 1e-16 of the run. The core refuses what is beyond."""
+
+
+MOST_FORCE = 1e100
+"""Of a load on a mode, beyond which nothing can be meant."""
 
 
 class _Finding(NamedTuple):
@@ -94,6 +99,44 @@ def too_stiff(problem: Problem) -> InputError | None:
                 what, key=f"{law.table}.{law.name}.stiffness", value=stiffness, hint=hint
             )
     return None
+
+
+def too_heavy(problem: Problem) -> InputError | None:
+    """Return what to tell of a load whose motions leave the range of numbers, or None.
+
+    Examples
+    --------
+    >>> import bumpstop as bs
+    >>> basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    >>> push = bs.NodalForce("push", node="P", force=(1e160, 0, 0))
+    >>> print(too_heavy(bs.Problem(basis, loads=[push], duration=1.0)))
+    loads.push: pushes too hard to compute with; check the units
+    """
+    for load in problem.loads:
+        with np.errstate(all="ignore"):
+            for force, functions in load.components(problem.basis):
+                size = _largest(functions, problem.duration) if functions else 1.0
+                if not float(np.abs(force).max()) * size < MOST_FORCE:
+                    what = "pushes too hard to compute with"
+                    return InputError(what, key=f"loads.{load.name}", hint="check the units")
+    return None
+
+
+def _largest(functions: Sequence[TimeFunction], duration: float) -> float:
+    """Return a bound of the sum of some functions of time over a run."""
+    from bumpstop.loads.time import Harmonic, Polynomial, TimeTable, resolved
+
+    total = 0.0
+    for term in resolved(functions, duration):
+        match term:
+            case Harmonic():
+                total += abs(term.cosine) + abs(term.sine)
+            case Polynomial():
+                powers = duration ** np.arange(len(term.coefficients))
+                total += float(np.abs(term.coefficients) @ powers)
+            case TimeTable():
+                total += float(np.abs(term.values).max())
+    return total
 
 
 def stiffest(problem: Problem) -> dict[str, float]:

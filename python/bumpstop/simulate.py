@@ -19,11 +19,10 @@ from bumpstop.methods import (
     ONE_STEP_METHODS,
     RTOL,
     TOLERANCE_METHODS,
-    changing_speed,
     check_method,
     check_options,
     checked_parameters,
-    smoothness,
+    choose,
 )
 from bumpstop.problem import Problem
 from bumpstop.response import Response
@@ -46,6 +45,8 @@ LARGEST_RESIDUAL = 1e-6
 """Imbalance, relative to the largest energy, above which a motion of the exact method is wrong."""
 MOST_ENERGY = 1e200
 """Twice the energy, in J, above which products of motions leave the range of numbers."""
+MOST_MOTION = 1e100
+"""Modal displacements, velocities and forces above which they do."""
 
 
 class Stepping(NamedTuple):
@@ -163,7 +164,7 @@ def simulate(
     if progress is not None and not callable(progress):
         what, hint = "must be a function", "it is told the part that is done, from 0 to 1"
         raise InputError(what, key="progress", value=progress, hint=hint)
-    chosen, reason = _choose(method, problem)
+    chosen, reason = choose(method, problem)
     if chosen == "exact" and method == "auto":
         rtol = atol = exact_flights = None
     beyond = beyond_stability_limit or None
@@ -211,6 +212,7 @@ def simulate(
             model.states,
         )
     except _core.CoreError as error:
+        _blame_load(problem, error)
         _blame_scale(chosen, problem, error)
         raise ComputationError(f"the {chosen} method could not finish: {error}") from error
     if chosen == "exact":
@@ -238,8 +240,8 @@ def _check_outcome(problem: Problem, history: _core.History) -> None:
     end = np.array([problem.duration])
     state = np.hstack([history.motion(end, order) for order in (0, 1)])
     what = ""
-    if not np.isfinite(state).all():
-        what = f"the motion is not finite at t = {problem.duration:g} s"
+    if not np.abs(state).max() < MOST_MOTION:
+        what = f"the motion leaves the range of numbers by t = {problem.duration:g} s"
     elif not _varies(problem) or _is_suspicious(problem):
         residual = history.energy_residual()
         if not residual <= LARGEST_RESIDUAL:
@@ -252,8 +254,18 @@ def _check_outcome(problem: Problem, history: _core.History) -> None:
             f"the exact method lost its digits: {what}; check the units of all numbers, "
             "or take an adaptive method"
         )
+        _blame_load(problem, error)
         _blame_scale("exact", problem, error)
         raise error
+
+
+def _blame_load(problem: Problem, error: Exception) -> None:
+    """Raise where a load is what a motion left the range of numbers for."""
+    from bumpstop.scale import too_heavy
+
+    blamed = too_heavy(problem)
+    if blamed is not None:
+        raise blamed from error
 
 
 def _check_numbers(method: str, problem: Problem, history: _core.History) -> None:
@@ -262,11 +274,14 @@ def _check_numbers(method: str, problem: Problem, history: _core.History) -> Non
     told = [history.motion(end, order) for order in (0, 1)]
     for law in range(len(problem.laws)):
         told.extend(history.law_motion(law, end))
-    if not all(np.isfinite(part).all() for part in told):
-        raise ComputationError(
-            f"the {method} method lost the motion by t = {problem.duration:g} s: its numbers are "
-            "not finite; take a smaller step or tolerance, and check the units"
+    # Written so that what is no number is too large.
+    if not all(np.abs(part).max(initial=0.0) < MOST_MOTION for part in told):
+        error = ComputationError(
+            f"the {method} method lost the motion by t = {problem.duration:g} s: it leaves the "
+            "range of numbers; take a smaller step or tolerance, and check the units"
         )
+        _blame_load(problem, error)
+        raise error
 
 
 def _varies(problem: Problem) -> bool:
@@ -292,22 +307,6 @@ def _blame_scale(method: str, problem: Problem, error: Exception) -> None:
     blamed = too_stiff(problem) or out_of_scale(problem)
     if blamed is not None:
         raise blamed from error
-
-
-def _choose(method: str, problem: Problem) -> tuple[str, str]:
-    """Return the method to take, and why."""
-    if method != "auto":
-        return method, "asked for"
-    if problem.basis.unreduced:
-        return "newmark", "a full model is stepped through time"
-    for law in problem.laws:
-        reason = smoothness(law)
-        if reason:
-            return "dop853", f"{law.name!r} is not piecewise linear: {reason}"
-    turning = changing_speed(problem)
-    if turning is not None:
-        return "dop853", f"{turning} changes in speed"
-    return "exact", "all laws are piecewise linear"
 
 
 def _checked_tolerances(
@@ -359,6 +358,7 @@ def _run_full(
     try:
         history = model.simulate(method, step, beyond, parameters, progress)
     except _core.CoreError as error:
+        _blame_load(problem, error)
         raise ComputationError(f"the {method} method could not finish: {error}") from error
     _check_numbers(method, problem, history)
     whole = len(kept) == len(problem.basis.omega2)

@@ -19,7 +19,9 @@ def case() -> bs.Case:
 @pytest.fixture(scope="module")
 def responses(case: bs.Case) -> dict[str, bs.Response]:
     return {
-        variant: bs.simulate(case.problems[variant], method.name, **usable_options(*method))
+        variant: bs.simulate(
+            case.problems[variant], method.name, **usable_options(*method, case.problems[variant])
+        )
         for variant, method in case.methods.items()
     }
 

@@ -23,7 +23,9 @@ def case() -> bs.Case:
 @pytest.mark.parametrize("variant", ["splines", "lines", "published"])
 def test_references(case: bs.Case, variant: str) -> None:
     method = case.methods[variant]
-    response = bs.simulate(case.problems[variant], method.name, **usable_options(*method))
+    response = bs.simulate(
+        case.problems[variant], method.name, **usable_options(*method, case.problems[variant])
+    )
     checks = check_references(response, case.references[variant])
     assert len(checks) == 4
     assert all(check.passed for check in checks)
@@ -33,7 +35,11 @@ def test_references(case: bs.Case, variant: str) -> None:
 def test_by_the_published_scheme_the_table_alone_is_left(case: bs.Case) -> None:
     """Where the crack is closed the coarser table is as good: seven digits are the deck's."""
     method = case.methods["published"]
-    response = bs.simulate(case.problems["published"], method.name, **usable_options(*method))
+    response = bs.simulate(
+        case.problems["published"],
+        method.name,
+        **usable_options(*method, case.problems["published"]),
+    )
     closed = response.sample("displacement", "tip", "dz", times=[1.0])[0]
     assert closed == pytest.approx(1.84420269199e-9, rel=4e-7)
 

@@ -122,6 +122,7 @@ def test_json(call: Output) -> None:
         assert variant.keys() == {
             "name",
             "method",
+            "method_reason",
             "steps",
             "certified_steps",
             "missed_penetration",

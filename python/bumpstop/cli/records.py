@@ -51,6 +51,7 @@ def _variant_record(
 
 _NOTHING_RUN: dict[str, Any] = {
     "method": None,
+    "method_reason": None,
     "steps": 0,
     "certified_steps": None,
     "missed_penetration": None,
@@ -65,6 +66,7 @@ _NOTHING_RUN: dict[str, Any] = {
 def _run_record(response: Response) -> dict[str, Any]:
     return {
         "method": response.method,
+        "method_reason": response.method_reason,
         "steps": response.steps,
         "certified_steps": response.certified_steps,
         "missed_penetration": response.missed_penetration,

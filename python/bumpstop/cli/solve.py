@@ -78,7 +78,8 @@ class Stepping(NamedTuple):
                 raise InputError(what, key="--rtol", hint=self._those(TOLERANCE_METHODS))
             positive("--rtol", self.rtol)
         if self.dt is not None:
-            if self.method not in FIXED_STEP_METHODS:
+            # A full model is stepped through time where the method is left open.
+            if self.method not in ("auto", *FIXED_STEP_METHODS):
                 what = "only methods with fixed steps take it"
                 raise InputError(what, key="--dt", hint=self._those(FIXED_STEP_METHODS))
             positive("--dt", self.dt)
@@ -116,7 +117,7 @@ def _solved(case: Case, name: str, stepping: Stepping, progress: Progress) -> Va
         return VariantResult(name, None, frequency_checks(case, name))
     own_method, options = case.methods[name]
     chosen = stepping.method or own_method
-    used = usable_options(chosen, options)
+    used = usable_options(chosen, options, case.problems[name])
     if stepping.dt is not None:
         used["dt"] = stepping.dt
     if stepping.rtol is not None:

@@ -11,6 +11,7 @@ from typing import Any
 from bumpstop.cli.console import Table, print_line, print_table
 from bumpstop.cli.outputs import older_outputs
 from bumpstop.cli.solve import CaseResult, VariantResult
+from bumpstop.methods import ASKED
 from bumpstop.post.energy import residual_told
 from bumpstop.post.references import Check
 from bumpstop.report.words import title_of
@@ -69,6 +70,8 @@ def _told(response: Response | None, numbers: dict[str, Any]) -> Iterator[str]:
     if response is None:
         return
     yield _how(numbers)
+    if numbers["method_reason"] != ASKED:
+        yield f"auto took this method: {numbers['method_reason']}"
     if response.problem.laws and numbers["certified_steps"] is not None:
         yield _certificate(numbers)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from bumpstop.errors import ComputationError
 from bumpstop.labelled import time_coordinate
 from bumpstop.quantities import ENERGIES, STOP_ENERGIES
 
@@ -45,6 +46,11 @@ def ledger(response: Response, times: FloatArray) -> Ledger:
         The response whose energies are asked for.
     times
         Instants in s within the simulated time.
+
+    Raises
+    ------
+    ComputationError
+        If energies have left the range of numbers.
     """
     # One call, with the start put first, so that the initial energy is summed as the others.
     core = response.history.energy(np.concatenate(([0.0], times)))
@@ -66,6 +72,8 @@ def ledger(response: Response, times: FloatArray) -> Ledger:
         "total_initial": np.full_like(total, present[0]),
         "residual": total - present[0] - given,
     }
+    if not np.isfinite(terms["residual"]).all():
+        raise ComputationError("the energies leave the range of numbers; check the units")
     stops = {"stored_in_stop": core["law_stored"].T, "dissipated_in_stop": core["law_dissipated"].T}
     return Ledger(
         terms={name: values[1:] for name, values in terms.items()},
@@ -78,10 +86,10 @@ def residual_told(residual: float) -> str:
 
     Examples
     --------
-    >>> residual_told(0.0), residual_told(3.14e-9)
-    ('< 1e-15', '3.1e-09')
+    >>> residual_told(0.0), residual_told(3.14e-9), residual_told(float("nan"))
+    ('< 1e-15', '3.1e-09', 'nan')
     """
-    return f"{residual:.1e}" if residual >= LEAST_TOLD else f"< {LEAST_TOLD:.0e}"
+    return f"< {LEAST_TOLD:.0e}" if residual < LEAST_TOLD else f"{residual:.1e}"
 
 
 def energy_dataset(response: Response) -> xr.Dataset:

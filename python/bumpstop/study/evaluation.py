@@ -251,7 +251,7 @@ class Evaluator:
 def simulated(problem: Problem, run: RunTable) -> Response:
     """Return the response of a problem, integrated as its case says."""
     method, options = method_of(run)
-    return simulate(problem, method, **usable_options(method, options))
+    return simulate(problem, method, **usable_options(method, options, problem))
 
 
 def told_failure(error: Exception) -> str:
