@@ -69,7 +69,7 @@ def test_a_program_answers_in_two_directions(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (None, r"laws\.own\.file: no such file .*own\.py"),
+        (None, r"laws\.own\.file: no such file \(got 'own\.py'\)"),
         ("x = 1", r"laws\.own\.file: defines no force .*; define force\(q, v, t\)"),
         ("import nothing_at_all", r"laws\.own\.file: cannot be run: ModuleNotFoundError: "),
         ("force = 3", r"laws\.own\.force: must be a function"),

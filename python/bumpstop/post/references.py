@@ -97,6 +97,9 @@ class Reference:
         `sampled_impacts` counts them, instead of that of the solution between them.
     source
         Where the values come from.
+    of_model
+        True where the values were computed with this very model, its modes and its mesh: they do
+        not tell it from a finer one.
 
     Raises
     ------
@@ -120,6 +123,7 @@ class Reference:
     impact: int | None = None
     sampled: bool = False
     source: str = ""
+    of_model: bool = False
 
     def __post_init__(self) -> None:
         one_of("quantity", self.quantity, tuple(REFERENCE_QUANTITIES))
@@ -270,6 +274,7 @@ class Check:
     absolute: bool
     passed: bool
     source: str
+    of_model: bool
     mode: int | None = None
 
     @property
@@ -389,4 +394,5 @@ def _check(reference: Reference, time: float, value: float, published: float) ->
         absolute=reference.absolute_tolerance is not None,
         passed=deviation <= tolerance,
         source=reference.source,
+        of_model=reference.of_model,
     )

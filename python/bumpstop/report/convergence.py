@@ -114,13 +114,14 @@ def position_told(variant: VariantConvergence) -> str:
         f"{position.share:.2g} +- {position.error:.2g} of the way "
         "from the computed to the converged values"
     )
+    are = "are those" if position.is_firm else "are rather those"
     match position.verdict:
         case "computed":
-            return (
-                f"The published values are those {of[part]}, not of the structure itself: {where}"
-            )
+            than = ", not" if position.is_firm else " than"
+            ends = f"{of[part]}{than} of the structure itself"
+            return f"The published values {are} {ends}: {where}"
         case "converged":
-            return f"The published values are those of the structure itself: {where}"
+            return f"The published values {are} of the structure itself: {where}"
         case "other":
             return f"The published values are neither computed nor converged ones: {where}"
     return f"The published values do not tell this model from a finer one: {where}"

@@ -63,6 +63,7 @@ def _reference(table: ReferenceTable, basis: ModalBasis, problem: Problem | None
         term=table.term,
         impact=table.impact,
         sampled=table.sampled,
+        of_model=table.of_model,
         source=table.source,
     )
     target.check_modes(basis)

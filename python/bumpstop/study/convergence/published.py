@@ -18,6 +18,8 @@ from bumpstop.arguments import FloatArray
 __all__ = ["Position", "position_of"]
 
 CONFIDENCE = 0.95
+FIRM = 0.5
+"""Half an interval up to which values are said to be those at one end of the way."""
 FEWEST = 3
 """Values below which nothing is said."""
 NEGLIGIBLE = 1e-9
@@ -31,6 +33,17 @@ class Position(NamedTuple):
     """Where the published values are."""
     error: float
     """Half the interval that holds the true share with a confidence of 95 %."""
+
+    @property
+    def is_firm(self) -> bool:
+        """Whether the interval is short beside the way.
+
+        Examples
+        --------
+        >>> Position(0.1, 0.3).is_firm, Position(-0.8, 1.5).is_firm
+        (True, False)
+        """
+        return self.error <= FIRM
 
     @property
     def verdict(self) -> str:

@@ -145,10 +145,13 @@ class VariantConvergence:
 
     @cached_property
     def position(self) -> Position | None:
-        """Where the published values lie, between the computed and the converged ones."""
-        return position_of(
-            self.published, self.computed, self.converged, self.allowed, self.uncertainty
-        )
+        """Where the published values lie, between the computed and the converged ones.
+
+        Those that were computed with this very model do not count.
+        """
+        outside = np.array([not check.of_model for check in self.checks], dtype=bool)
+        values = (self.published, self.computed, self.converged, self.allowed, self.uncertainty)
+        return position_of(*(each[outside] for each in values))
 
     @property
     def largest(self) -> str:

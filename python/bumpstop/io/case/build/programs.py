@@ -27,18 +27,19 @@ def user_law(name: str, given: dict[str, Any], folder: Path) -> UserLaw:
     """
     from bumpstop.laws import UserLaw
 
-    file = folder / given.pop("file")
+    told = given.pop("file")
+    file = folder / told
     if not file.is_file():
-        raise InputError("no such file", key="file", value=str(file))
+        raise InputError("no such file", key="file", value=told)
     try:
         defined = run_path(str(file))
     except Exception as error:  # whatever a user's program may raise
         what = f"cannot be run: {type(error).__name__}: {error}"
-        raise InputError(what, key="file", value=str(file)) from error
+        raise InputError(what, key="file", value=told) from error
     functions = {key: defined[key] for key in _FUNCTIONS if key in defined}
     if "force" not in functions:
         hint = "define force(q, v, t)"
-        raise InputError("defines no force", key="file", value=str(file), hint=hint)
+        raise InputError("defines no force", key="file", value=told, hint=hint)
     return UserLaw(name, **functions, **given)
 
 

@@ -48,3 +48,8 @@ class ReferenceTable(Table):
         default=None, description="Largest deviation, in the unit of the values"
     )
     source: Text = Field(default="", description="Where the values come from")
+    of_model: Switch = Field(
+        default=False,
+        description="Whether the values were computed with this very model, its modes and its "
+        "mesh: they do not tell it from a finer one",
+    )
