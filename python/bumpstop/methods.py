@@ -207,11 +207,13 @@ def _refuse_rigid_stops(method: str, problem: Problem) -> None:
     if method not in RIGID_METHODS:
         for law in problem.laws:
             if hasattr(law, "restitution"):
+                smooth = any(smoothness(each) for each in problem.laws)
+                both = f"{' and '.join(RIGID_METHODS)} do"
                 raise InputError(
                     f"does not take rigid stops such as {law.name!r}",
                     key="method",
                     value=method,
-                    hint=f"{' and '.join(RIGID_METHODS)} do",
+                    hint="moreau_jean with a step dt does" if smooth else both,
                 )
 
 

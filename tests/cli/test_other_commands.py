@@ -198,7 +198,11 @@ def test_verify_by_a_method_with_steps(capsys: pytest.CaptureFixture[str]) -> No
         (["--dt", "1e-5"], "--dt: only methods with fixed steps take it; give --method, too"),
         (["--dt", "1e-5", "--method", "exact"], "--dt: only methods with fixed steps take it"),
         (["--dt", "-1", "--method", "symplectic_euler"], "--dt: must be positive"),
-        (["--dt", "a", "--method", "symplectic_euler"], "argument --dt: invalid float value: 'a'"),
+        (
+            ["--dt", "a", "--method", "symplectic_euler"],
+            "argument --dt: is not a number with a unit",
+        ),
+        (["--dt", "1kg", "--method", "symplectic_euler"], "argument --dt: wrong unit: 'kg' is"),
     ],
 )
 def test_steps_that_nothing_takes(

@@ -295,6 +295,20 @@ def _path(text: str) -> Path:
     return Path(text)
 
 
+def _seconds(text: str) -> float:
+    """Return a time, which may have a unit as in a case file."""
+    try:
+        return float(text)
+    except ValueError:
+        from bumpstop.errors import InputError
+        from bumpstop.io.case.fields.quantities import read_time
+
+        try:
+            return read_time(text)
+        except InputError as error:
+            raise ArgumentTypeError(str(error)) from error
+
+
 def _takes_case(parser: ArgumentParser) -> None:
     parser.add_argument("case", type=_path, metavar="CASE.toml", help="The case file.")
 
@@ -302,8 +316,8 @@ def _takes_case(parser: ArgumentParser) -> None:
 def _takes_method(parser: ArgumentParser) -> None:
     told = "How to integrate time; as the case says if left out."
     parser.add_argument("--method", metavar="M", help=told)
-    told = "The step of that method in s; as the case says if left out."
-    parser.add_argument("--dt", type=float, metavar="S", help=told)
+    told = "The step of that method, in s or with a unit (10us); as the case says if left out."
+    parser.add_argument("--dt", type=_seconds, metavar="S", help=told)
     told = "The relative tolerance of that method; as the case says if left out."
     parser.add_argument("--rtol", type=float, metavar="R", help=told)
 

@@ -50,6 +50,7 @@ __all__ = [
     "Written",
     "WrittenList",
     "read_number",
+    "read_time",
 ]
 
 _WITHOUT_UNIT = r"^\s*[-+]?(\d+\.?\d*|\.\d+)"
@@ -129,6 +130,17 @@ def _finite(value: object, dimension: Dimension) -> float:
     if not math.isfinite(value):
         raise InputError("must be finite", value=value)
     return float(value)
+
+
+def read_time(value: object) -> float:
+    """Return a time in s, of a number or of a number with its unit.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    return read_number(value, _TIME)
 
 
 def _quantity(
