@@ -132,12 +132,16 @@ def started_from(problem: Problem, state: FloatArray) -> Problem:
 
 def refuse_memory(law: Law) -> None:
     """Raise where a law remembers what the motion does not tell, but for friction."""
+    if not _is_forgetful(law):
+        what = "remembers more than the motion tells, and a new run would forget it"
+        raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
+
+
+def _is_forgetful(law: Law) -> bool:
     from bumpstop import laws as known
 
     # By exact kind: what is made of these may remember more.
-    if type(law) not in {getattr(known, name) for name in _FORGETFUL}:
-        what = "remembers more than the motion tells, and a new run would forget it"
-        raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
+    return type(law) in {getattr(known, name) for name in _FORGETFUL}
 
 
 def _refuse_changing_speed(problem: Problem) -> None:
@@ -161,8 +165,7 @@ def _law_states(response: Response, instant: float) -> LawStates | None:
     states: Any = getattr(response.history, "states", None)
     if states is None or problem.basis.unreduced:
         for law in remembering:
-            if type(law).__name__ not in _FORGETFUL:
-                refuse_memory(law)
+            refuse_memory(law)
             _refuse_rubbing(response, law, instant)
         return None
     return tuple(states(instant))
@@ -170,7 +173,7 @@ def _law_states(response: Response, instant: float) -> LawStates | None:
 
 def _remembers(law: Law) -> bool:
     """Return whether a law remembers what the motion does not tell."""
-    return type(law).__name__ not in _FORGETFUL or getattr(law, "friction", None) is not None
+    return not _is_forgetful(law) or getattr(law, "friction", None) is not None
 
 
 def _refuse_rubbing(response: Response, law: Law, instant: float) -> None:
