@@ -146,6 +146,28 @@ def test_mistakes_are_one_line() -> None:
         bs.continued(run, duration=0.0)
 
 
+def test_obstacles_that_move_along_axes_go_on() -> None:
+    motion: dict[str, Any] = {
+        "dy": bs.Harmonic(4.0, sine=2e-2),
+        "dz": [bs.Harmonic(3.0, cosine=1e-2), bs.Polynomial([0.0, 0.01])],
+    }
+    shapes = {("P", "dy"): [1.0, 0.0], ("P", "dz"): [0.0, 1.0]}
+    basis = bs.ModalBasis.from_modes(frequency=[1.0, 2.0], damping=[0.02, 0.02], shapes=shapes)
+    hole = bs.CircleStop(
+        "hole", node="P", axis=(1, 0, 0), radius=2e-2, stiffness=1e3, motion=motion
+    )
+
+    def run(duration: float) -> bs.Response:
+        return bs.simulate(bs.Problem(basis, laws=[hole], duration=duration), rtol=1e-11)
+
+    unbroken, first = run(1.5), run(0.7)
+    assert len(unbroken.impacts) > 2
+    rest = bs.simulate(bs.continued(first, duration=0.8), rtol=1e-11)
+    times = np.linspace(0.0, 0.8, 81)
+    found, expected = rest.motion(0, times), unbroken.motion(0, 0.7 + times)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+
+
 ALONG: dict[str, Any] = {"node": "P", "direction": (1, 0, 0)}
 REMEMBERING: list[Any] = [
     bs.ZenerDamper(

@@ -16,6 +16,7 @@ from bumpstop.loads.shifted import Shifted
 from bumpstop.methods import changing_speed
 
 if TYPE_CHECKING:
+    from bumpstop.loads.time import TimeFunction
     from bumpstop.modal.basis import ModalBasis
     from bumpstop.problem import Law, Load, Problem
     from bumpstop.response import Response
@@ -192,9 +193,18 @@ def _moved_on(law: Law, instant: float, drawn: float) -> Law:
     if not getattr(law, "functions", ()):
         return law
     stop: Any = law
-    motion = [Shifted(each, instant, drawn) for each in stop.functions]
-    later: Law = replace(stop, motion=motion)
-    return later
+
+    def later(functions: Sequence[TimeFunction]) -> list[Shifted]:
+        return [Shifted(each, instant, drawn) for each in functions]
+
+    along_axes = isinstance(stop.motion, dict)
+    motion: Any = (
+        {dof: later(functions) for dof, functions in stop.motion.items()}
+        if along_axes
+        else later(stop.functions)
+    )
+    moved: Law = replace(stop, motion=motion)
+    return moved
 
 
 def _later(load: Load, instant: float, drawn: float) -> Load:
