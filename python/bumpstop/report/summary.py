@@ -130,8 +130,8 @@ def model_rows(problem: Problem) -> list[Row]:
     """Return the model of a problem, one row a subject, those without content left out."""
     rows = [
         *basis_rows(problem.basis),
-        ("Stops", [_stop(law) for law in problem.laws if isinstance(law, Stop)]),
-        ("Laws", [_law(law) for law in problem.laws if not isinstance(law, Stop)]),
+        ("Stops", [_stop(law) + _moving(law) for law in problem.laws if isinstance(law, Stop)]),
+        ("Laws", [_law(law) + _moving(law) for law in problem.laws if not isinstance(law, Stop)]),
         ("Loads", [_load(load) for load in problem.loads]),
         ("Initial state", [_initial(problem.initial), *problem.initial_remarks]),
         ("Gauges", [_gauge(gauge) for gauge in problem.gauges]),
@@ -331,6 +331,20 @@ def _law(law: Law) -> str:
     if isinstance(law, ShapedStop):
         return _shaped(law)
     return law.name
+
+
+def _moving(law: Law) -> str:
+    """Say how an obstacle moves, and where it stands while supports do."""
+    motion = getattr(law, "motion", None) or ()
+    along = motion if isinstance(motion, dict) else {"its normal": motion}
+    moves = [
+        f"moves along {axis} by {' + '.join(map(_function, functions))}, in m"
+        for axis, functions in along.items()
+        if functions
+    ]
+    if getattr(law, "frame", "relative") == "absolute":
+        moves.append("stands still on the ground")
+    return "".join(f"; {each}" for each in moves)
 
 
 def _shaped(law: ShapedStop) -> str:
