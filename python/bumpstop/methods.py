@@ -62,7 +62,7 @@ ADAPTIVE_METHODS = (*TOLERANCE_METHODS, "adaptive_central_difference")
 """Methods whose steps follow the motion, and that locate every switch."""
 PARAMETERS: dict[str, dict[str, Range]] = {
     **ONE_STEP_PARAMETERS,
-    "adaptive_central_difference": {"points_per_period": Range(10.0, 1e7)},
+    "adaptive_central_difference": {"points_per_period": Range(20.0, 1e7)},
 }
 """Parameters of the methods that have any beside a step or a tolerance."""
 METHODS = ("auto", "exact", *FIXED_STEP_METHODS, *ADAPTIVE_METHODS)

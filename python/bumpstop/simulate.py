@@ -107,7 +107,7 @@ def simulate(
         Weight of the end of a step in the method of Moreau and Jean, from 1/2 to 1, 1/2 where left
         out.
     points_per_period
-        Steps of the adaptive central difference in a period of the fastest visible motion, from 10
+        Steps of the adaptive central difference in a period of the fastest visible motion, from 20
         to 1e7, 50 where left out.
     rtol
         Relative tolerance of the Runge-Kutta pairs, if one is taken, 1e-8 where left out: the error
