@@ -172,6 +172,7 @@ class FrictionStop:
         dynamic_coefficient: float,
         stiffness: float,
         damping: float,
+        by_velocity_sign: bool = False,
     ) -> None: ...
 
 class Spring:

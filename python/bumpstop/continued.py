@@ -158,8 +158,10 @@ def _law_states(response: Response, instant: float) -> LawStates | None:
     remembering = [law for law in problem.laws if _remembers(law)]
     if not remembering:
         return None
+    from bumpstop.laws import OutsideProgram
+
     for law in remembering:
-        if getattr(law, "stepped", False):
+        if isinstance(law, OutsideProgram):
             what = "is a program outside, which has gone on"
             raise InputError(what, key=f"{law.table}.{law.name}", value=type(law).__name__)
     # Runs read back from files have none.

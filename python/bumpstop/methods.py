@@ -232,12 +232,12 @@ def _refuse_rigid_friction(method: str, problem: Problem) -> None:
 
 
 def _refuse_stepped_laws(method: str, problem: Problem) -> None:
-    """Raise where a program outside is to be asked once a step, by a method that asks more."""
+    """Raise where a law is to be asked once a step, by a method that asks more."""
     if method == "symplectic_euler":
         return
     for law in problem.laws:
         if getattr(law, "stepped", False):
-            what = f"does not take {law.name!r}: {smoothness(law)}, once a step"
+            what = f"does not take {law.name!r}, which is asked once a step: {smoothness(law)}"
             hint = "symplectic_euler with a step dt does"
             raise InputError(what, key="method", value=method, hint=hint)
 

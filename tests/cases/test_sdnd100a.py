@@ -18,10 +18,13 @@ def case() -> bs.Case:
 
 @pytest.fixture(scope="module")
 def responses(case: bs.Case) -> dict[str, bs.Response]:
-    return {name: bs.simulate(problem, "exact") for name, problem in case.problems.items()}
+    return {
+        name: bs.simulate(problem, case.methods[name].name, **case.methods[name].options)
+        for name, problem in case.problems.items()
+    }
 
 
-@pytest.mark.parametrize("variant", ["published", "rigid"])
+@pytest.mark.parametrize("variant", ["published", "rigid", "steps"])
 def test_references(variant: str, case: bs.Case, responses: dict[str, bs.Response]) -> None:
     checks = check_references(responses[variant], case.references[variant])
     assert len(checks) == 8
@@ -59,3 +62,18 @@ def test_without_the_damper_of_the_stick_the_last_peak_is_lost(case: bs.Case) ->
     published = [2.7e-4, 1.6e-3, 4.6e-3, 4.3e-2]
     references = np.array([-4.596e-4, 3.182e-4, -1.768e-4, 3.536e-5])
     np.testing.assert_allclose(np.abs(peaks / references - 1.0), published, rtol=0.02)
+
+
+def test_small_steps_lead_to_the_law_that_is_solved_exactly(
+    case: bs.Case, responses: dict[str, bs.Response]
+) -> None:
+    """The published friction is the same but for how a step finds it."""
+    peaks = np.arange(1, 5) * np.pi / 100.0
+    exact = responses["published"].sample("displacement", "P", "dy", times=peaks)
+    errors = []
+    for dt in (1e-4, 2.5e-5):
+        response = bs.simulate(case.problems["steps"], "symplectic_euler", dt=dt)
+        found = response.sample("displacement", "P", "dy", times=peaks)
+        errors.append(np.abs(found - exact).max())
+    assert errors[1] < 0.5 * errors[0]
+    assert errors[1] < 1e-7

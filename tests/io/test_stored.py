@@ -27,7 +27,8 @@ CASES = Path(__file__).parents[2] / "cases"
 def problems() -> Iterator[tuple[str, bs.Problem]]:
     for case in ("sdnl32", "sdnd100a", "ball-on-floor", "sdnl105b", "sdnl111a"):
         for name, problem in bs.load_case(CASES / case / "case.toml").problems.items():
-            yield f"{case}-{name}", problem
+            if name != "steps":  # takes its own scheme alone
+                yield f"{case}-{name}", problem
     gauges = [bs.Gauge("strain", beam="AB", at=0.462, fibre=(0.007, 0.0))]
     outputs = [("AB@0.462 m", "drz")]
     yield (

@@ -191,6 +191,9 @@ pub struct FrictionStop(pub law::FrictionStop);
 #[pymethods]
 impl FrictionStop {
     #[new]
+    #[pyo3(signature = (normal, tangent, static_coefficient, dynamic_coefficient, stiffness,
+                        damping, by_velocity_sign=false))]
+    #[allow(clippy::too_many_arguments)] // mirrors the Python signature
     fn new(
         normal: PyRef<'_, Stop>,
         tangent: PyReadonlyArray1<f64>,
@@ -198,12 +201,18 @@ impl FrictionStop {
         dynamic_coefficient: f64,
         stiffness: f64,
         damping: f64,
+        by_velocity_sign: bool,
     ) -> PyResult<Self> {
         let friction = law::Friction {
             static_coefficient,
             dynamic_coefficient,
             stiffness,
             damping,
+            rule: if by_velocity_sign {
+                law::SlidingRule::VelocitySign
+            } else {
+                law::SlidingRule::Slider
+            },
         };
         law::FrictionStop::new(normal.0.clone(), values(&tangent), friction)
             .map(Self)
@@ -445,6 +454,7 @@ impl ShapedStop {
             dynamic_coefficient: dynamic,
             stiffness,
             damping,
+            rule: law::SlidingRule::Slider,
         });
         let rows = rows.iter().map(values).collect();
         law::ShapedStop::new(rows, origin, shape.0.clone(), stiffness, damping, friction)

@@ -13,9 +13,13 @@ from bumpstop.laws.coordinate import Coordinate, Terms
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["OBSTACLES", "Contact"]
+__all__ = ["FRICTION_KEYS", "OBSTACLES", "SLIDING_RULES", "Contact"]
 
 OBSTACLES = ("plane",)
+FRICTION_KEYS = ("static", "dynamic", "rule")
+"""What friction may be told by name."""
+SLIDING_RULES = ("slider", "velocity_sign")
+"""What may tell that a contact that slides slides on; see `Friction`."""
 
 
 @dataclass(frozen=True)

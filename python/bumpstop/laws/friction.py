@@ -8,15 +8,22 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from bumpstop.arguments import FloatArray, Vector, did_you_mean, not_negative
+from bumpstop.arguments import FloatArray, Vector, did_you_mean, not_negative, one_of
 from bumpstop.errors import InputError
+from bumpstop.laws.contact import FRICTION_KEYS, SLIDING_RULES
 from bumpstop.laws.coordinate import Coordinate, Terms, unit
 from bumpstop.projection import TRANSLATIONS
 
 if TYPE_CHECKING:
     from bumpstop.modal.basis import ModalBasis
 
-__all__ = ["Friction", "checked_sliding", "component_row", "sliding_coordinate", "sliding_row"]
+__all__ = [
+    "Friction",
+    "checked_sliding",
+    "component_row",
+    "sliding_coordinate",
+    "sliding_row",
+]
 
 ONE_DIRECTION = 1e-9
 """Motions across the only direction that is not theirs, relative to those along it."""
@@ -24,7 +31,7 @@ ONE_DIRECTION = 1e-9
 
 @dataclass(frozen=True)
 class Friction:
-    """Coefficients of friction.
+    """Coefficients of friction, and what tells that a contact slides on.
 
     Parameters
     ----------
@@ -32,11 +39,21 @@ class Friction:
         Ratio of tangential to normal force above which the contact breaks loose.
     dynamic
         Ratio while it slides, at most the static one; the same where left out.
+    rule
+        ``"slider"``: it slides on while its slider moves on, as the law of friction has it.
+        ``"velocity_sign"``: while a step finds the velocity with the sign of the step before, and
+        sticks then to where the last sliding force would be that of its spring. This is defined
+        from step to step alone, for results published so: see `Stop`.
 
     Raises
     ------
     InputError
-        If a coefficient is negative, or the dynamic one exceeds the static one.
+        If a coefficient is negative, the dynamic one exceeds the static one, or the rule is
+        unknown.
+
+    References
+    ----------
+    code_aster, validation test SDND100A, whose values the second rule repeats.
 
     Examples
     --------
@@ -46,8 +63,10 @@ class Friction:
 
     static: float
     dynamic: float | None = None
+    rule: str = "slider"
 
     def __post_init__(self) -> None:
+        one_of("friction.rule", self.rule, SLIDING_RULES)
         static = not_negative("friction.static", self.static)
         dynamic = self.dynamic
         if dynamic is not None:
@@ -64,6 +83,11 @@ class Friction:
         """The coefficient while it slides."""
         return self.static if self.dynamic is None else self.dynamic
 
+    @property
+    def goes_by_steps(self) -> bool:
+        """Whether its rule is defined from step to step alone."""
+        return self.rule != "slider"
+
     @classmethod
     def of(cls, value: object) -> Self:
         """Return the friction that a number, a mapping or a friction says."""
@@ -72,9 +96,12 @@ class Friction:
         if not isinstance(value, Mapping):
             return cls(not_negative("friction", value))
         for key in value:
-            if key not in ("static", "dynamic"):
-                hint = did_you_mean(key, ("static", "dynamic"))
-                raise InputError("is no coefficient", key=f"friction.{key}", hint=hint)
+            if key not in FRICTION_KEYS:
+                raise InputError(
+                    "is nothing of friction",
+                    key=f"friction.{key}",
+                    hint=did_you_mean(key, FRICTION_KEYS),
+                )
         if "static" not in value:
             raise InputError("must have a static coefficient", key="friction", value=dict(value))
         return cls(**value)

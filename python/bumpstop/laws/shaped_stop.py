@@ -48,7 +48,7 @@ class ShapedStop(ABC):
     other: str | None = None
     stiffness: float
     damping: float = 0.0
-    friction: float | Mapping[str, float] | Friction | None = None
+    friction: float | Mapping[str, float | str] | Friction | None = None
     tangential_stiffness: float | None = None
     tangential_damping: float | None = None
     motion: Mapping[str, TimeFunction | Sequence[TimeFunction]] | None = None
@@ -224,7 +224,11 @@ class ShapedStop(ABC):
                     hint = "give the coefficient, friction = 0.2"
                     raise InputError("belongs to friction", key=key, value=value, hint=hint)
             return
-        object.__setattr__(self, "friction", Friction.of(self.friction))
+        friction = Friction.of(self.friction)
+        if friction.goes_by_steps:
+            what, hint = "is for a Stop, which rubs along one direction", "leave it out"
+            raise InputError(what, key="friction.rule", value=friction.rule, hint=hint)
+        object.__setattr__(self, "friction", friction)
         if self.tangential_stiffness is None:
             hint = "a contact that sticks is a spring; take about the contact stiffness"
             raise InputError("friction needs it", key="tangential_stiffness", hint=hint)

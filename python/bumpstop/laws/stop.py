@@ -67,7 +67,11 @@ class Stop(Contact):
         Where the obstacle stands while supports move: ``"relative"`` to them, or ``"absolute"``,
         still on the ground.
     friction
-        Coefficient of friction, or ``{"static": ..., "dynamic": ...}``.
+        Coefficient of friction, or ``{"static": ..., "dynamic": ...}``. With ``"rule":
+        "velocity_sign"`` it repeats published results of `symplectic_euler`, which alone takes it:
+        what slid slides on, with ``dynamic F`` against the velocity, while the velocity at a step
+        has the sign of the step before and is more than 1e-6 m/s; else it sticks, its anchor where
+        the last sliding force would be that of the spring, unless that exceeds ``static F``.
     sliding
         Direction along the obstacle in which it rubs, or weights of dofs as in ``terms``; may be
         left out where the modes move the node in one direction only along the obstacle.
@@ -97,7 +101,7 @@ class Stop(Contact):
     damping: float = 0.0
     motion: TimeFunction | Sequence[TimeFunction] = ()
     frame: str = "relative"
-    friction: float | Mapping[str, float] | Friction | None = None
+    friction: float | Mapping[str, float | str] | Friction | None = None
     sliding: Vector | Terms | None = None
     tangential_stiffness: float | None = None
     tangential_damping: float = 0.0
@@ -124,6 +128,17 @@ class Stop(Contact):
     def motions(self) -> tuple[tuple[TimeFunction, ...], ...]:
         """The same for each of its coordinates: along the normal alone."""
         return (self.functions,)
+
+    @property
+    def stepped(self) -> bool:
+        """Whether its state must be told once a step, in order."""
+        # A `Friction` once it has been checked.
+        return getattr(self.friction, "goes_by_steps", False)
+
+    @property
+    def smooth(self) -> str:
+        """Why it is not piecewise linear; nothing where it is."""
+        return "the velocity at a step tells whether it slides" if self.stepped else ""
 
     @property
     def internal_variables(self) -> tuple[str, ...]:
@@ -167,6 +182,7 @@ class Stop(Contact):
             friction.while_sliding,
             self.tangential_stiffness,
             self.tangential_damping,
+            friction.goes_by_steps,
         )
 
     def _check_friction(self) -> None:

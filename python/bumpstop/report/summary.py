@@ -264,6 +264,8 @@ def _friction(law: Stop | ShapedStop) -> str:
     friction = Friction.of(law.friction)
     static, dynamic = _plain(friction.static), _plain(friction.while_sliding)
     words = static if static == dynamic else f"{static}, {dynamic} while it slides"
+    if friction.goes_by_steps:
+        words += ", by the velocity at steps"
     return f"; friction {words}, {with_unit(law.tangential_stiffness, 'N/m')} along the obstacle"
 
 

@@ -11,6 +11,11 @@
 //! carried the damper would, `x' + (ct x'' - s mu_dynamic F') / kt`, which is the condition for
 //! sticking to stay inside the cone. Sliding ends when neither moves on, so that at every switch
 //! one state and one only can follow.
+//!
+//! Published results of fixed steps go by another rule ([`SlidingRule::VelocitySign`]): a contact
+//! that slid slides on, against the velocity, while a step finds that with the sign of the step
+//! before, and else sticks to where the last sliding force would be that of the spring. It is
+//! defined from step to step alone.
 
 use super::{Affine, Guard, Law, Local, LocalMotion, Piece, Power, State, Stop};
 use crate::error::{Error, Result, check_finite};
@@ -28,6 +33,19 @@ pub struct Friction {
     pub stiffness: f64,
     /// Damping of the stick, in N s/m.
     pub damping: f64,
+    /// What tells that it slides on.
+    pub rule: SlidingRule,
+}
+
+/// What tells that a contact that slides slides on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SlidingRule {
+    /// The slider moves on.
+    #[default]
+    Slider,
+    /// The velocity of the structure has the sign that it had a step before. Source: the friction
+    /// of code_aster's test SDND100A, whose values it repeats.
+    VelocitySign,
 }
 
 impl Friction {
@@ -79,6 +97,9 @@ pub struct FrictionStop {
 /// Number of the normal and the sliding coordinate.
 const NORMAL: usize = 0;
 const SLIDING: usize = 1;
+
+/// Speed in m/s up to which nothing slides by the sign of the velocity.
+const STILL: f64 = 1e-6;
 
 impl FrictionStop {
     /// No contact.
@@ -249,6 +270,32 @@ impl FrictionStop {
         self.slider(sign, force, motion.position()[SLIDING])
     }
 
+    /// The sampled state in contact by the sign of the velocity, which states of this rule remember
+    /// beside the anchor; a contact that begins slides on as one that slid at no speed.
+    #[inline(always)]
+    fn sampled_by_velocity(&self, previous: State, x: f64, v: f64, force: f64) -> State {
+        let Friction {
+            stiffness, damping, ..
+        } = self.friction;
+        let [anchor, speed] = match previous.number {
+            0 | 1 => [x, 0.0],
+            _ => previous.memory,
+        };
+        let remembering = |mut state: State| {
+            state.memory[1] = v;
+            state
+        };
+        let slides_on = previous.number != Self::STICK && v * speed >= 0.0 && v.abs() > STILL;
+        if !slides_on {
+            let trial = -stiffness * (x - anchor) - damping * v;
+            if trial.abs() <= self.friction.static_coefficient * force {
+                return remembering(Self::stick(anchor));
+            }
+        }
+        let sign = 1f64.copysign(v);
+        remembering(Self::slip(sign, self.slider(sign, force, x)))
+    }
+
     /// The sampled state in contact, after one that slid with a sign, or stuck where that is zero;
     /// where the slider stood then.
     #[inline(always)]
@@ -317,6 +364,9 @@ impl Law for FrictionStop {
         match self.normal.initial_state(motion, &acting) {
             Stop::OPEN => Self::OPEN,
             Stop::RELEASED => Self::RELEASED,
+            _ if self.is_stepped() => {
+                self.sampled_state(Self::RELEASED, motion.position(), motion.velocity())
+            }
             _ => self.begin(acting),
         }
     }
@@ -335,6 +385,9 @@ impl Law for FrictionStop {
         };
         let (x, v) = (position[SLIDING], velocity[SLIDING]);
         let [force, ..] = self.normal.force(closed, position, velocity);
+        if self.is_stepped() {
+            return self.sampled_by_velocity(previous, x, v, force);
+        }
         let sliding = Self::sliding(previous).unwrap_or(0.0);
         let before = match previous.number {
             0 => {
@@ -379,6 +432,14 @@ impl Law for FrictionStop {
             None => f64::NAN,
         };
         [slider, f64::NAN]
+    }
+
+    fn is_stepped(&self) -> bool {
+        self.friction.rule == SlidingRule::VelocitySign
+    }
+
+    fn is_piecewise_linear(&self) -> bool {
+        !self.is_stepped()
     }
 
     fn piece(&self, state: State) -> Option<Piece> {

@@ -36,7 +36,7 @@ pub use cracked_rotor::{CrackedRotor, Periodic};
 pub use damper::Damper;
 pub use force_relation::ForceRelation;
 pub use formula::{Binary, Formula, Operation, Sided, Smooth};
-pub use friction_stop::{Friction, FrictionStop};
+pub use friction_stop::{Friction, FrictionStop, SlidingRule};
 pub use hardening_spring::{Hardening, HardeningSpring};
 pub use hertz_stop::HertzStop;
 pub use outside_program::{OutsideProgram, Program};
@@ -240,7 +240,8 @@ pub trait Law: Clone + Send + Sync {
         false
     }
 
-    /// Whether its states must be sampled once a step, in order, as those of a program outside.
+    /// Whether its states must be sampled once a step, in order, as those of a program outside or
+    /// of a rule that is defined from step to step.
     fn is_stepped(&self) -> bool {
         false
     }

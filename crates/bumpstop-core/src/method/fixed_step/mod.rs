@@ -89,7 +89,7 @@ mod tests {
     use super::*;
     use crate::forcing::Forcing;
     use crate::history::{Derivative, History};
-    use crate::law::{AnyLaw, Friction, FrictionStop, Stop};
+    use crate::law::{AnyLaw, Friction, FrictionStop, SlidingRule, Stop};
     use crate::method::{Method, simulate};
     use crate::problem::Problem;
     use std::sync::Arc;
@@ -120,6 +120,7 @@ mod tests {
             dynamic_coefficient: 0.3,
             stiffness: 1e4,
             damping: 0.0,
+            rule: SlidingRule::default(),
         };
         FrictionStop::new(stop(modes, gap), tangent, friction)
             .unwrap()

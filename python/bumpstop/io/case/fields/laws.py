@@ -9,6 +9,7 @@ from bumpstop.io.case.fields.plain import Plain, read_list
 from bumpstop.io.case.fields.quantities import WITH_UNIT, read_number
 from bumpstop.io.case.fields.words import choice, read_node
 from bumpstop.io.units import Dimension
+from bumpstop.laws.contact import FRICTION_KEYS, SLIDING_RULES
 from bumpstop.structure.dofs import DOFS, Dof
 
 __all__ = [
@@ -36,7 +37,6 @@ _ANGULAR_SLOPE = Dimension("a slope of an angular stiffness", "N m/rad^2", "3e5 
 _SLOPE = Dimension("a stiffness", "N/m", "18 kN/m")
 _SPEED = Dimension("a speed", "m/s", "0.2 m/s")
 _DAMPING = Dimension("a damping constant", "N s/m", "30 N s/m")
-_COEFFICIENTS = ("static", "dynamic")
 
 
 class _WithUnit(float):
@@ -68,14 +68,17 @@ def _read_contact_stiffness(value: object) -> float:
     return _WithUnit(number) if isinstance(value, str) else number
 
 
-def _read_friction(value: object) -> float | dict[str, float]:
+def _read_friction(value: object) -> float | dict[str, float | str]:
     if not isinstance(value, dict):
         return read_number(value, _COEFFICIENT, least=0)
-    friction = {}
-    for key, coefficient in value.items():
-        choice(*_COEFFICIENTS).read(key)
+    friction: dict[str, float | str] = {}
+    for key, told in value.items():
+        choice(*FRICTION_KEYS).read(key)
         try:
-            friction[key] = read_number(coefficient, _COEFFICIENT, least=0)
+            if key == "rule":
+                friction[key] = choice(*SLIDING_RULES).read(told)
+            else:
+                friction[key] = read_number(told, _COEFFICIENT, least=0)
         except InputError as error:
             raise error.located(key=key) from error
     return friction
@@ -188,7 +191,10 @@ _FRICTION = {
         {"type": "number", "minimum": 0},
         {
             "type": "object",
-            "properties": {key: {"type": "number", "minimum": 0} for key in _COEFFICIENTS},
+            "properties": {
+                **{key: {"type": "number", "minimum": 0} for key in FRICTION_KEYS if key != "rule"},
+                "rule": {"enum": list(SLIDING_RULES)},
+            },
             "required": ["static"],
             "additionalProperties": False,
         },
@@ -196,7 +202,7 @@ _FRICTION = {
 }
 
 ContactStiffness = Annotated[float, Plain(_read_contact_stiffness, _STIFFNESS)]
-FrictionCoefficients = Annotated[float | dict[str, float], Plain(_read_friction, _FRICTION)]
+FrictionCoefficients = Annotated[float | dict[str, float | str], Plain(_read_friction, _FRICTION)]
 Sliding = Annotated[
     str | tuple[float, float, float] | dict[Dof, float],
     Plain(

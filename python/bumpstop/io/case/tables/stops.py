@@ -139,7 +139,8 @@ class StopTable(Table):
     )
     friction: FrictionCoefficients | None = Field(
         default=None,
-        description="Coefficient of Coulomb friction, or { static = ..., dynamic = ... }",
+        description="Coefficient of Coulomb friction, or { static = ..., dynamic = ... }, and for "
+        'results published by steps rule = "velocity_sign"',
     )
     sliding: Sliding | None = Field(
         default=None,
