@@ -82,7 +82,10 @@ class Response:
 
     @property
     def is_dense(self) -> bool:
-        """Whether it can be read at any instant: not where it comes from a file."""
+        """Whether it is at hand for any instant.
+
+        Where it comes from a file, its run is repeated for what the file does not hold.
+        """
         return getattr(self.history, "is_dense", True)
 
     @property

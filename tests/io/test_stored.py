@@ -7,6 +7,7 @@ import io
 import tracemalloc
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -129,8 +130,92 @@ def test_a_part_of_the_instants_can_be_read_alone(tmp_path: Path) -> None:
     few = response.times[[0, 17, 2000]]
     assert again.at(few).equals(response.at(few))
     assert not again.at(few).equals(again)
-    with pytest.raises(bs.InputError, match=r"times: is not among the instants.*0\.00555"):
-        again.sample("displacement", "B", "dy", times=[0.005555])
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_between_its_instants_a_file_repeats_the_run_to_the_bit(name: str, tmp_path: Path) -> None:
+    response = bs.simulate(ALL[name]).at(np.linspace(0.0, ALL[name].duration, 7))
+    again = read_again(response, tmp_path)
+    assert not again.is_dense
+    between = np.sort(np.random.default_rng(1).uniform(0.0, response.problem.duration, 500))
+    assert again.at(between).equals(response.at(between))
+
+
+def between(again: bs.Response, response: bs.Response) -> None:
+    """Assert that both tell the same off the instants of the file."""
+    times = np.random.default_rng(2).uniform(0.0, response.problem.duration, 100)
+    for derivative in range(3):
+        expected = response.motion(derivative, times)
+        np.testing.assert_array_equal(again.motion(derivative, times), expected)
+
+
+METHODS = {
+    "central_difference": {"dt": 1e-5},
+    "symplectic_euler": {"dt": 1e-5},
+    "newmark": {"dt": 1e-5, "beta": 0.3, "gamma": 0.6},
+    "trbdf2": {"dt": 1e-5},
+    "rk54": {"rtol": 1e-6, "atol": 1e-9},
+    "dop853": {"exact_flights": False},
+    "adaptive_central_difference": {"points_per_period": 30.0},
+}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_methods_are_repeated_with_their_options(method: str, tmp_path: Path) -> None:
+    response = bs.simulate(ALL["sdnl32-soft"], method, **METHODS[method])  # type: ignore[arg-type]
+    between(read_again(response, tmp_path), response)
+
+
+def test_a_run_that_is_not_that_of_the_file_is_refused(tmp_path: Path) -> None:
+    """Motion that no run of the problem has: an instant of the file is read, another is not."""
+    bs.simulate(ALL["scaled"]).to_netcdf(tmp_path / "run.nc")
+    with h5py.File(tmp_path / "run.nc", "r+") as file:
+        file["canonical_velocity"][-1] *= 1.0 + 1e-6
+    again = bs.read_netcdf(tmp_path / "run.nc")
+    assert len(again.sample("gap", "guide")) == len(again.times)
+    with pytest.raises(bs.InputError, match="is not that of the file: the motion is") as caught:
+        again.sample("gap", "guide", times=[0.123456])
+    assert "\n" not in str(caught.value)
+    with h5py.File(tmp_path / "run.nc", "r+") as file:
+        file["event_time"][1] += 1e-6
+    with pytest.raises(bs.InputError, match=r"is not that of the file: a law switches .* s apart"):
+        bs.read_netcdf(tmp_path / "run.nc").sample("gap", "guide", times=[0.123456])
+
+
+def test_contact_statistics_of_a_file_are_those_of_the_run(tmp_path: Path) -> None:
+    basis = bs.ModalBasis.from_modes(
+        frequency=[3.0, 7.5], damping=0.01, shapes={("P", "dx"): [1.0, 0.4]}
+    )
+    laws: list[Any] = [
+        bs.Stop("soft", node="P", normal=(-1, 0, 0), gap=1e-3, stiffness=1e5, damping=30.0),
+        bs.RigidStop("hard", node="P", normal=(1, 0, 0), gap=1e-3, restitution=0.7),
+    ]
+    start = bs.ModalState(velocity=[0.2, 0.1])
+    response = bs.simulate(bs.Problem(basis, laws=laws, initial=start, duration=3.0, sample=0.1))
+    again = read_again(response, tmp_path)
+    counting: list[dict[str, Any]]
+    counting = [{}, {"threshold": 5.0, "rest": 1e-3}, {"start": 0.7, "end": 2.1, "blocks": 3}]
+    for stop, options in [*(("soft", each) for each in counting), ("hard", {})]:
+        live, stored = (bs.contact_statistics(run, stop, **options) for run in (response, again))
+        assert live["impact_count"] >= 2
+        np.testing.assert_array_equal(list(stored.values.values()), list(live.values.values()))
+        for name, values in live.blocks.items():
+            np.testing.assert_array_equal(stored.blocks[name], values)
+
+
+def test_sections_of_a_file_are_those_of_the_run(tmp_path: Path) -> None:
+    """Periods that no instant of the file divides; without a stop the closed form tells them."""
+    basis = bs.ModalBasis.from_modes(frequency=[1.0], shapes={("P", "dx"): [1.0]})
+    start = bs.ModalState(velocity=[2.0 * np.pi])
+    problem = bs.Problem(basis, initial=start, duration=20.0, sample=0.1)
+    again = read_again(bs.simulate(problem), tmp_path)
+    period = np.sqrt(2.0)
+    section = bs.stroboscopic_section(again, "P", "dx", period, phase=0.3, start=2.0)
+    expected = np.sin(2.0 * np.pi * section["time"])
+    assert len(expected) == 12
+    np.testing.assert_allclose(section["displacement"], expected, rtol=0, atol=1e-13)
+    assert not bs.periodicity(again, period, tolerance=1e-9)
+    assert bs.periodicity(again, 1.0, tolerance=1e-9).multiple == 1
 
 
 def test_blocks_make_the_same_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

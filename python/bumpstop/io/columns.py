@@ -129,6 +129,10 @@ class Instants:
         self.times = times
         self._order = None if isinstance(times, Grid) else np.argsort(times, kind="stable")
 
+    def hold(self, wanted: FloatArray) -> bool:
+        """Return whether all of some instants are in the file."""
+        return bool((self._nearest(wanted)[1] == wanted).all())
+
     def rows(self, wanted: FloatArray) -> IndexArray:
         """Return the rows of instants.
 
@@ -137,17 +141,7 @@ class Instants:
         InputError
             If one is not in the file.
         """
-        if isinstance(self.times, Grid):
-            last = len(self.times) - 1
-            found = np.clip(np.rint(wanted / self.times.step), 0, last).astype(np.intp)
-            # The last step may be a short one.
-            found[wanted == self.times.end] = last
-            known = np.where(found == last, self.times.end, found * self.times.step)
-        else:
-            ordered = self.times[self._order]
-            place = np.searchsorted(ordered, wanted).clip(0, max(len(ordered) - 1, 0))
-            found = np.arange(len(ordered))[self._order][place]
-            known = ordered[place]
+        found, known = self._nearest(wanted)
         if (known != wanted).any():
             raise InputError(
                 "is not among the instants of the file",
@@ -156,3 +150,15 @@ class Instants:
                 hint="to read it anywhere, simulate the response's problem again",
             )
         return found
+
+    def _nearest(self, wanted: FloatArray) -> tuple[IndexArray, FloatArray]:
+        """Return rows near some instants, and the instants of these."""
+        if isinstance(self.times, Grid):
+            last = len(self.times) - 1
+            found = np.clip(np.rint(wanted / self.times.step), 0, last).astype(np.intp)
+            # The last step may be a short one.
+            found[wanted == self.times.end] = last
+            return found, np.where(found == last, self.times.end, found * self.times.step)
+        ordered = self.times[self._order]
+        place = np.searchsorted(ordered, wanted).clip(0, max(len(ordered) - 1, 0))
+        return np.arange(len(ordered))[self._order][place], ordered[place]

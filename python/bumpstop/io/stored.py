@@ -17,6 +17,7 @@ from bumpstop.instants import Grid
 from bumpstop.io.columns import Instants, numbers, texts
 from bumpstop.io.independent_dofs import kept_of_file
 from bumpstop.io.reading import in_file
+from bumpstop.io.repeated import RepeatedHistory
 from bumpstop.io.statement import unpacked
 from bumpstop.io.stored_history import StoredHistory, attributes_of
 from bumpstop.methods import OPTIONS
@@ -41,8 +42,10 @@ def read_netcdf(path: str | PathLike[str]) -> Response:
     problem (`Response.equals`). Long runs are read from the file as they are asked for, so that
     `Response.blocks` takes the memory of a block. Every number and text is held against the
     checksum that it was written with, whatever reads it. The motion between these instants is not
-    in the file: to read it
-    anywhere else, simulate the problem again, ``bs.simulate(response.problem, response.method)``.
+    in the file: where it is asked for, as by contact statistics and Poincaré sections, the run is
+    repeated once from the problem, the method and the options that the file tells, which gives it
+    to the bit on the same machine, and is refused where its switches or its motion at the instants
+    of the file are not those of the file within 1e-9 of the duration and of the largest motion.
 
     Parameters
     ----------
@@ -123,7 +126,7 @@ def _response(file: h5py.File) -> tuple[Response, StoredHistory]:
     told = attributes_of(file)
     known = {name for options in OPTIONS.values() for name in options}
     options = {name: float(told[f"method_{name}"]) for name in known if f"method_{name}" in told}
-    history = StoredHistory(file, problem, Instants(instants))
+    history = RepeatedHistory(file, problem, Instants(instants), options)
     response = Response(
         problem,
         cast("History", history),
