@@ -129,11 +129,32 @@ def test_the_floor_spectrum_of_a_run() -> None:
     assert float(found[1]) == pytest.approx(resonance, rel=5e-3)
 
 
+def test_a_number_gives_a_curve_and_a_list_gives_curves() -> None:
+    """A step of the base: overshoots 1 + exp(-pi xi / sqrt(1 - xi2)), whatever the frequency."""
+    step, hertz, ratios = over_time([0.0, 4.0], [1.0, 1.0]), [1.0, 5.0, 7.0], [0.0, 0.1, 0.3]
+    overshoot = [1.0 + math.exp(-math.pi * xi / math.sqrt(1.0 - xi**2)) for xi in ratios]
+    curves = bs.response_spectrum(step, hertz, ratios)
+    assert curves.dims == ("damping", "frequency")
+    assert curves.shape == (3, 3)
+    np.testing.assert_array_equal(curves["damping"], ratios)
+    np.testing.assert_allclose(curves, np.outer(overshoot, np.ones(3)), rtol=1e-6)
+    for xi, curve in zip(ratios, curves, strict=True):
+        one = bs.response_spectrum(step, hertz, xi)
+        assert (one.dims, one.attrs["damping"]) == (("frequency",), xi)
+        np.testing.assert_array_equal(one, curve)
+    assert bs.response_spectrum(step, hertz, [0.1]).shape == (1, 3)
+    assert bs.response_spectrum(step, hertz, np.float64(0.1)).shape == (3,)
+
+
 @pytest.mark.parametrize(
     ("options", "key"),
     [
         ({"frequency": [0.0]}, "frequency"),
         ({"damping": 1.0}, "damping"),
+        ({"damping": [0.1, -0.1]}, "damping"),
+        ({"damping": []}, "damping"),
+        ({"damping": [[0.1]]}, "damping"),
+        ({"damping": "much"}, "damping"),
         ({"quantity": "pseudo"}, "quantity"),
         ({"side": "left"}, "side"),
         ({"acceleration": over_time([1.0, 0.0], [0.0, 0.0])}, "acceleration"),

@@ -9,7 +9,7 @@ recurrence as the ramp-invariant filter of D. O. Smallwood, Shock and Vibration 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +42,7 @@ MOST_STEPS = 30_000_000
 def response_spectrum(
     acceleration: xr.DataArray,
     frequency: ArrayLike,
-    damping: float = 0.05,
+    damping: ArrayLike = 0.05,
     *,
     quantity: str = "pseudo_acceleration",
     side: str = "both",
@@ -60,7 +60,8 @@ def response_spectrum(
     frequency
         Natural frequencies in Hz, (F,).
     damping
-        Ratio of critical damping, from 0 to below 1.
+        Ratio of critical damping, from 0 to below 1: one number gives a curve, a list (D,), of one
+        number too, a curve for each.
     quantity
         ``"pseudo_acceleration"``, ``"pseudo_velocity"``, ``"relative_displacement"``,
         ``"relative_velocity"`` or ``"absolute_acceleration"``.
@@ -75,7 +76,8 @@ def response_spectrum(
     Returns
     -------
     xarray.DataArray
-        Over ``frequency`` in Hz.
+        Over ``frequency`` in Hz, (F,), with the damping in its ``attrs``; for a list of dampings
+        over ``damping`` and ``frequency``, (D, F).
 
     Raises
     ------
@@ -98,19 +100,39 @@ def response_spectrum(
     if (hertz <= 0.0).any():
         raise InputError("must be positive", key="frequency", value=float(hertz.min()))
     _check_length(times, float(hertz.max()))
-    ratio = finite("damping", damping)
-    if not 0.0 <= ratio < 1.0:
-        raise InputError("must be from 0 to below 1", key="damping", value=damping)
+    ratios = _ratios(damping)
     units, words = QUANTITIES[one_of("quantity", quantity, tuple(QUANTITIES))]
     one_of("side", side, SIDES)
-    found = [_largest(times, values, f, ratio, quantity, side, after) for f in hertz]
-    return xr.DataArray(
+    found = [
+        [_largest(times, values, f, ratio, quantity, side, after) for f in hertz]
+        for ratio in ratios.ravel().tolist()
+    ]
+    about = {"units": units, "long_name": words, "side": side}
+    spectra = xr.DataArray(
         found,
-        dims="frequency",
-        coords={"frequency": ("frequency", hertz, {"units": "Hz", "long_name": "frequency"})},
+        dims=("damping", "frequency"),
+        coords={
+            "damping": ("damping", ratios.ravel(), {"units": "1", "long_name": "damping ratio"}),
+            "frequency": ("frequency", hertz, {"units": "Hz", "long_name": "frequency"}),
+        },
         name=quantity,
-        attrs={"units": units, "long_name": words, "damping": ratio, "side": side},
+        attrs=about,
     )
+    if ratios.ndim:
+        return spectra
+    return spectra.isel(damping=0, drop=True).assign_attrs(damping=ratios.item())
+
+
+def _ratios(damping: ArrayLike) -> FloatArray:
+    """Return ratios of critical damping, () for one number and (D,) for a list."""
+    given: Any = damping
+    single = np.ndim(given) == 0
+    ratios = np.array(finite("damping", given) if single else series("damping", given))
+    outside = ~((ratios >= 0.0) & (ratios < 1.0))
+    if outside.any():
+        what = "must be from 0 to below 1"
+        raise InputError(what, key="damping", value=float(ratios[outside].flat[0]))
+    return ratios
 
 
 class Motion(NamedTuple):
