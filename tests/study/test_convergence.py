@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import bumpstop as bs
+from bumpstop.report.convergence import position_told
 from bumpstop.study.convergence.finer import finer_mesh
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -339,3 +340,21 @@ def test_values_of_the_very_model_do_not_tell_it_from_a_finer_one(tmp_path: Path
     found = bs.converge(bs.load_case(case)).variants
     assert [variant.position for variant in found.values()] == [None, None]
     assert all(check.of_model for check in found["soft"].checks)
+    told = position_told(found["soft"])
+    assert told == "No value from outside that could tell this model from a finer one"
+
+
+def test_few_values_from_outside_are_told_by_their_distances(tmp_path: Path) -> None:
+    """One frequency of Euler's hinged beam: the regression would have no residual to go by."""
+    case = tmp_path / "case.toml"
+    lines = SDNL32.read_text().split("[[references]]")[0]
+    case.write_text(
+        lines + '[[references]]\nquantity = "frequency"\nmodes = [1]\nvalues = [100.0]\n'
+        'tolerance = 1.0\nsource = "made up"\n'
+    )
+    variant = bs.converge(bs.load_case(case)).variants["soft"]
+    assert variant.position is None
+    off = [abs(float(end[0]) / 100.0 - 1.0) for end in (variant.computed, variant.converged)]
+    np.testing.assert_allclose(variant.distances, off, rtol=1e-12)
+    told = position_told(variant)
+    assert f"one value from outside, {100 * off[0]:.2g} % off the computed" in told

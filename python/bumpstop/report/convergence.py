@@ -107,7 +107,7 @@ def position_told(variant: VariantConvergence) -> str:
     """Return whether the published values are those of the model or of what it converges to."""
     position = variant.position
     if position is None:
-        return "Nothing that could tell this model from a finer one"
+        return _untold(variant)
     part = variant.largest
     of = {"time": "of this step", "basis": f"of {variant.vectors} modes", "mesh": "of this mesh"}
     where = (
@@ -125,6 +125,19 @@ def position_told(variant: VariantConvergence) -> str:
         case "other":
             return f"The published values are neither computed nor converged ones: {where}"
     return f"The published values do not tell this model from a finer one: {where}"
+
+
+def _untold(variant: VariantConvergence) -> str:
+    """Return how far published values are from both, where no regression can tell more."""
+    number = int(np.count_nonzero(variant.outside))
+    if not number:
+        return "No value from outside that could tell this model from a finer one"
+    computed, converged = (f"{100.0 * distance:.2g} %" for distance in variant.distances)
+    values = "one value" if number == 1 else f"{number} values"
+    return (
+        f"Nothing that could tell this model from a finer one: {values} from outside, "
+        f"{computed} off the computed and {converged} off the converged ones, root mean square"
+    )
 
 
 def remedy_told(variant: VariantConvergence) -> Iterator[str]:

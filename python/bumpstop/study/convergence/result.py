@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bumpstop.arguments import FloatArray
 from bumpstop.study.convergence.published import Position, position_of
@@ -149,9 +150,25 @@ class VariantConvergence:
 
         Those that were computed with this very model do not count.
         """
-        outside = np.array([not check.of_model for check in self.checks], dtype=bool)
         values = (self.published, self.computed, self.converged, self.allowed, self.uncertainty)
-        return position_of(*(each[outside] for each in values))
+        return position_of(*(each[self.outside] for each in values))
+
+    @cached_property
+    def outside(self) -> NDArray[np.bool_]:
+        """Which published values were not computed with this very model, (n,)."""
+        return np.array([not check.of_model for check in self.checks], dtype=bool)
+
+    @property
+    def distances(self) -> tuple[float, float]:
+        """How far the values from outside are from the computed and from the converged ones.
+
+        Both as `relative` has them; zero where there are none.
+        """
+        ends = (self.computed, self.converged)
+        computed, converged = (
+            self.relative(np.where(self.outside, end - self.published, np.nan)) for end in ends
+        )
+        return computed, converged
 
     @property
     def largest(self) -> str:
