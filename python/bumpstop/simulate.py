@@ -14,6 +14,7 @@ from bumpstop.arguments import boolean, finite, not_negative, one_of, positive
 from bumpstop.canonical import CanonicalForm, canonical_form
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.methods import (
+    ASKED,
     FIXED_STEP_METHODS,
     METHODS,
     ONE_STEP_METHODS,
@@ -50,11 +51,13 @@ MOST_MOTION = 1e100
 
 
 class Stepping(NamedTuple):
-    """A method with the parameters of its scheme, and whether its step may be unstable."""
+    """A method with its parameters, whether its step may be unstable, and why it is taken."""
 
     method: str
     parameters: dict[str, float]
     beyond_limit: bool
+    reason: str
+    """Why it is taken."""
 
 
 def simulate(
@@ -186,9 +189,9 @@ def simulate(
     tolerances = _checked_tolerances(chosen, rtol, atol)
     for line in problem.warnings:
         warnings.warn(line, ModellingWarning, stacklevel=2)
-    stepping = Stepping(chosen, parameters, beyond_stability_limit)
+    stepping = Stepping(chosen, parameters, beyond_stability_limit, reason)
     if problem.basis.unreduced:
-        return _run_full(problem, stepping, dt, reason, progress)
+        return _run_full(problem, stepping, dt, progress)
     model = _model(chosen, problem)
     step = None
     if chosen in FIXED_STEP_METHODS:
@@ -339,13 +342,12 @@ def _run_full(
     problem: Problem,
     stepping: Stepping,
     dt: float | None,
-    reason: str,
     progress: Callable[[float], None] | None,
 ) -> Response:
     """Step through time on the dofs of a structure."""
     from bumpstop.full import full_problem, kept_dofs
 
-    method, parameters, beyond = stepping
+    method, parameters, beyond, reason = stepping
     steps = problem.duration / positive("dt", dt) if dt is not None else 1.0
     kept = kept_dofs(problem, steps)
     try:
@@ -378,7 +380,8 @@ def _checked_step(
     method = stepping.method
     if dt is None:
         hint = f"stable up to {limit:.4g} s" if limit < math.inf else "every step is stable"
-        raise InputError(f"the {method} method needs a step in s", key="dt", hint=hint)
+        took = "" if stepping.reason == ASKED else f", which auto took ({stepping.reason}),"
+        raise InputError(f"the {method} method{took} needs a step in s", key="dt", hint=hint)
     step = positive("dt", dt)
     if step > duration:
         hint = f"the duration is {duration:g} s"

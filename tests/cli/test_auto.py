@@ -50,7 +50,12 @@ def test_a_full_model_is_stepped_where_the_method_is_left_open(
 ) -> None:
     file = tmp_path / "case.toml"
     file.write_text(f'{FULL}dt = "0.1 ms"\n')
-    for more in ([], ["--method", "auto"], ["--method", "auto", "--dt", "0.2 ms"]):
+    for more in (
+        [],
+        ["--method", "auto"],
+        ["--method", "auto", "--dt", "0.2 ms"],
+        ["--dt", "0.2 ms"],
+    ):
         status, out, _ = call("run", str(file), *more)
         assert status == 0
         assert "method newmark, " in out
@@ -62,4 +67,4 @@ def test_a_full_model_is_stepped_where_the_method_is_left_open(
     file.write_text(FULL)
     status, _, err = call("run", str(file))
     assert status == 2
-    assert "run.dt: the newmark method needs a step in s" in err
+    assert "run.dt: the newmark method, which auto took (a full model is" in err

@@ -198,6 +198,10 @@ def test_verify_by_a_method_with_steps(capsys: pytest.CaptureFixture[str]) -> No
         (["--dt", "1e-5"], "--dt: only methods with fixed steps take it; give --method, too"),
         (["--dt", "1e-5", "--method", "exact"], "--dt: only methods with fixed steps take it"),
         (["--dt", "-1", "--method", "symplectic_euler"], "--dt: must be positive"),
+        (["--dt", "-1e-5", "--method", "newmark"], "--dt: must be positive (got -1e-05)"),
+        (["--dt", "-.5us", "--method", "newmark"], "--dt: must be positive"),
+        (["--rtol", "-1e-3", "--method", "dop853"], "--rtol: must be positive (got -0.001)"),
+        (["--dt", "-inf", "--method", "newmark"], "--dt: must be finite"),
         (
             ["--dt", "a", "--method", "symplectic_euler"],
             "argument --dt: is not a number with a unit",

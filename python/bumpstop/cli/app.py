@@ -26,6 +26,8 @@ Job: TypeAlias = Callable[[], int]
 """What a command does; it returns the exit status."""
 
 PROGRAM = "bumpstop"
+NEGATIVE = re.compile(r"-\.?\d|-inf|-nan")
+"""How a negative number begins."""
 WHAT_IT_IS = "How flexible structures vibrate when they hit stops."
 
 
@@ -54,10 +56,26 @@ def job(words: Sequence[str]) -> Job:
     parser = _parser(command)
     if not {"-h", "--help"}.isdisjoint(arguments):
         return partial(_print_help, parser)
-    given, unknown = parser.parse_known_intermixed_args(arguments)
+    given, unknown = parser.parse_known_intermixed_args(_with_values(arguments))
     if unknown:
         parser.refuse(unknown[0])
     return partial(parser.work, given)
+
+
+def _with_values(arguments: Sequence[str]) -> list[str]:
+    """Return arguments with negative numbers joined to the options in front of them.
+
+    An option that begins with a minus and a digit there is none, but argparse takes ``-1e-5`` for
+    one.
+    """
+    joined: list[str] = []
+    for word in arguments:
+        option = joined[-1] if joined else ""
+        if NEGATIVE.match(word) and option.startswith("--") and "=" not in option:
+            joined[-1] = f"{option}={word}"
+        else:
+            joined.append(word)
+    return joined
 
 
 class _Parser(ArgumentParser):

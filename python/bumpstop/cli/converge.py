@@ -30,6 +30,7 @@ def converge_command(
     """Find the errors of a case's results, print and write them; return the status."""
     stepping.check()
     case = load_case(path)
+    stepping.check_for(case)
     if out is not None:
         check_writable(out, [REPORT])
     with progress_display(f"{case.name}, converging") as tell:

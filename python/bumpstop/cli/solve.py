@@ -12,7 +12,13 @@ import numpy as np
 from bumpstop.arguments import did_you_mean, positive
 from bumpstop.errors import ComputationError, InputError, ModellingWarning
 from bumpstop.io.case import Case
-from bumpstop.methods import FIXED_STEP_METHODS, METHODS, TOLERANCE_METHODS, usable_options
+from bumpstop.methods import (
+    FIXED_STEP_METHODS,
+    METHODS,
+    TOLERANCE_METHODS,
+    choose,
+    usable_options,
+)
 from bumpstop.post.references import Check, check_frequencies, check_references
 from bumpstop.response import Response
 from bumpstop.simulate import simulate
@@ -68,21 +74,24 @@ class Stepping(NamedTuple):
     rtol: float | None = None
 
     def check(self) -> None:
-        """Raise an error where there is no such method, or it has no step or tolerance."""
+        """Raise an error where there is no such method, step or tolerance."""
         if self.method is not None and self.method not in METHODS:
             hint = did_you_mean(self.method, METHODS)
             raise InputError("unknown method", key="--method", value=self.method, hint=hint)
-        if self.rtol is not None:
-            if self.method not in TOLERANCE_METHODS:
+        for key, value in (("--dt", self.dt), ("--rtol", self.rtol)):
+            if value is not None:
+                positive(key, value)
+
+    def check_for(self, case: Case) -> None:
+        """Raise an error where the method that a variant takes has no such step or tolerance."""
+        for name, problem in case.problems.items():
+            method, _ = choose(self.method or case.methods[name].name, problem)
+            if self.rtol is not None and method not in TOLERANCE_METHODS:
                 what = "only methods that follow a tolerance take it"
                 raise InputError(what, key="--rtol", hint=self._those(TOLERANCE_METHODS))
-            positive("--rtol", self.rtol)
-        if self.dt is not None:
-            # A full model is stepped through time where the method is left open.
-            if self.method not in ("auto", *FIXED_STEP_METHODS):
+            if self.dt is not None and method not in FIXED_STEP_METHODS:
                 what = "only methods with fixed steps take it"
                 raise InputError(what, key="--dt", hint=self._those(FIXED_STEP_METHODS))
-            positive("--dt", self.dt)
 
     def _those(self, methods: Iterable[str]) -> str:
         lead = "give --method, too" if self.method is None else "take another --method"
@@ -109,6 +118,7 @@ def solve_case(case: Case, stepping: Stepping, progress: Progress) -> CaseResult
         If a variant could not be finished.
     """
     stepping.check()
+    stepping.check_for(case)
     return CaseResult(case, [_solved(case, name, stepping, progress) for name in case.bases])
 
 
