@@ -15,6 +15,9 @@ Count = tuple[float, int]
 class CoreError(Exception):
     """The core refused its input or could not finish; the message says why."""
 
+    dof: int
+    """The coordinate of a full model that moves most where one blew up, counted from 0."""
+
 def symmetric_modes(stiffness: Array, mass: Array, count: int) -> tuple[Array, Array]:
     """Return all eigenvalues of ``K x = omega2 M x``, and the shapes of the lowest.
 

@@ -361,7 +361,11 @@ def _run_full(
         history = model.simulate(method, step, beyond, parameters, progress)
     except _core.CoreError as error:
         _blame_load(problem, error)
-        raise ComputationError(f"the {method} method could not finish: {error}") from error
+        what = f"the {method} method could not finish: {error}"
+        dof = getattr(error, "dof", None)
+        if dof is not None:
+            what += f"; dof {dof + 1} is {problem.basis.labels[dof]}"
+        raise ComputationError(what) from error
     _check_numbers(method, problem, history)
     whole = len(kept) == len(problem.basis.omega2)
     return Response(

@@ -306,16 +306,25 @@ def test_its_steps_follow_dampers_too() -> None:
     assert fine < 1e-3 * true[-1]
 
 
+ALONG: dict[str, Any] = {"node": "P", "direction": (1, 0, 0)}
+DAMPERS: list[Any] = [
+    bs.DamperLaw("damper", damping=(5.0,), breaks=(), **ALONG),
+    bs.ForceRelation("smooth damper", force="-5 * v", **ALONG),
+]
+
+
+@pytest.mark.parametrize("damper", DAMPERS, ids=lambda law: str(law.name))
 @pytest.mark.parametrize("method", ADAPTIVE)
 @pytest.mark.parametrize("rtol", [1e-3, 1e-5, 1e-7, 1e-10])
-def test_the_first_step_is_short_for_what_a_law_answers(method: str, rtol: float) -> None:
+def test_the_first_step_is_short_for_what_a_law_answers(
+    method: str, rtol: float, damper: Any
+) -> None:
     """A mass on a damper alone, over one time constant.
 
     The estimate of `rk32` is `z^3 (1 - z) / 48` for a step of `z` time constants: it vanishes for
     all of the run.
     """
     basis = bs.ModalBasis.from_modes(frequency=[0.0], damping=[0.0], shapes={("P", "dx"): [1.0]})
-    damper = bs.DamperLaw("damper", node="P", direction=(1, 0, 0), damping=(5.0,), breaks=())
     start = bs.ModalState(displacement=[0.0], velocity=[1.0])
     problem = bs.Problem(basis, laws=[damper], initial=start, duration=0.2)
     run = bs.simulate(problem, method, rtol=rtol)

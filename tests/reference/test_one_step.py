@@ -215,7 +215,7 @@ def test_energy_that_contacts_add_is_found_out(method: str) -> None:
 
 def test_a_full_model_that_blows_up_says_where() -> None:
     problem = between_walls(bs.FullModel.from_structure(unit_mass()))
-    with pytest.raises(bs.ComputationError, match=r"blows up: at t = .* most of it in dof 1 of"):
+    with pytest.raises(bs.ComputationError, match=r"most of it in dof 1 of.*; dof 1 is P dx$"):
         bs.simulate(problem, "newmark", dt=3e-3)
 
 

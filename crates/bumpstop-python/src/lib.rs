@@ -10,7 +10,7 @@ mod simulate;
 mod sparse;
 mod user;
 
-use bumpstop_core::error::Error;
+use bumpstop_core::error::{Error, Place};
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 
@@ -23,7 +23,16 @@ pyo3::create_exception!(
 
 /// The core's error as a Python exception.
 pub(crate) fn core_error(error: Error) -> PyErr {
-    CoreError::new_err(error.to_string())
+    let raised = CoreError::new_err(error.to_string());
+    if let Error::BlowUp {
+        place: Some(Place::Dof(dof)),
+        ..
+    } = error
+    {
+        // An exception takes any attribute; without this one the message is poorer.
+        let _ = Python::attach(|py| raised.value(py).setattr("dof", dof));
+    }
+    raised
 }
 
 /// The compiled core of bumpstop.

@@ -54,10 +54,12 @@ const FIRST_TURN: f64 = 0.1;
 
 /// The first step, and one behind a switch, is no longer than this part of the shortest time in
 /// which the linear laws answer. An estimate of the error speaks of short steps: of longer ones it
-/// may vanish, as that of `rk32` does where the step is the time constant of a damper. What a smooth
-/// law answers tells of an instant only, and may be without bounds there, as at the rest of a damper
-/// with a power of the speed below one.
+/// may vanish, as that of `rk32` does where the step is the time constant of a damper.
 const ANSWERED: f64 = 0.5;
+
+/// Part of the first step that smooth laws leave. What these answer tells of an instant only, and may
+/// be without bounds there, as at the rest of a damper with a power of the speed below one.
+const LEFT_BY_SMOOTH_LAWS: f64 = 1e-6;
 
 /// Steps below this many times the rounding of the time are too small.
 const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
@@ -186,10 +188,12 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
     fn new(
         mut stepping: S,
         states: Vec<State>,
-        equations: Equations<'a, L>,
+        mut equations: Equations<'a, L>,
         flights: Option<Flights<'a, L>>,
     ) -> Self {
+        equations.turn(0.0);
         let (problem, degree) = (equations.problem, stepping.degree());
+        let h = begun_step(&equations, stepping.numbers());
         let layout = &equations.layout;
         Self {
             problem,
@@ -199,7 +203,7 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
             stepping,
             states,
             time: 0.0,
-            h: first_step(problem).min(answered_step(&equations)),
+            h,
             longest: longest_step(problem),
             flights,
             landed: Vec::new(),
@@ -406,7 +410,7 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
         self.fired.push((law, guard));
         self.states[law] = event.after;
         self.equations.take_states(&self.states);
-        self.h = self.h.min(answered_step(&self.equations));
+        self.h = (self.h).min(answered_step(self.equations.linear_answers()));
         Ok(())
     }
 }
@@ -433,8 +437,16 @@ fn first_step<L: Law>(problem: &Problem<L>) -> f64 {
     (FIRST_TURN / fastest).min(problem.duration)
 }
 
-/// A step in which the linear laws, in their present states, answer but in part.
-fn answered_step<L: Law>(equations: &Equations<'_, L>) -> f64 {
-    let [stiffness, damping] = equations.linear_answers();
+/// A step in which structure, loads and laws do little, from t = 0 on.
+fn begun_step<L: Law>(equations: &Equations<'_, L>, numbers: &[f64]) -> f64 {
+    let first = first_step(equations.problem);
+    let smooth = answered_step(equations.answers(0.0, numbers)).max(LEFT_BY_SMOOTH_LAWS * first);
+    first
+        .min(answered_step(equations.linear_answers()))
+        .min(smooth)
+}
+
+/// A step in which laws that answer with such a stiffness and damping do so but in part.
+fn answered_step([stiffness, damping]: [f64; 2]) -> f64 {
     ANSWERED / stiffness.sqrt().max(damping)
 }
