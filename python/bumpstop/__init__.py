@@ -77,6 +77,7 @@ if TYPE_CHECKING:
     from bumpstop.modal.substructure.reduced import ReducedComponent
     from bumpstop.modal.substructure.rotation import Rotation
     from bumpstop.post.contacts import contact_impacts
+    from bumpstop.post.force_spectrum import force_spectrum
     from bumpstop.post.lyapunov import LyapunovExponents, lyapunov_exponents
     from bumpstop.post.poincare import (
         Periodicity,
@@ -284,6 +285,7 @@ __all__ = [
     "draw_sectors",
     "envelope",
     "follow",
+    "force_spectrum",
     "free_interface",
     "generalised_mass",
     "heat_map",
@@ -457,6 +459,7 @@ _HOME = {
     "draw_sectors": "report.drawings",
     "envelope": "post.signals",
     "follow": "study.follow",
+    "force_spectrum": "post.force_spectrum",
     "free_interface": "modal.substructure.free_interface",
     "generalised_mass": "modal.masses",
     "heat_map": "report.studies.grids",

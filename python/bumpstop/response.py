@@ -467,6 +467,23 @@ class Response:
         return pd.DataFrame(self.impact_table())
 
     @property
+    def impulses(self) -> pd.DataFrame:
+        """Every blow on a rigid stop, in the order of time: ``time`` in s, ``stop``, ``impulse``.
+
+        The impulse, in N s, is that on the structure along the normal of the stop. `stop_force`
+        lacks the blows, which take no time and whose force is infinite: the force of a rigid stop
+        is that of rests on it, and these impulses as Dirac functions. Stops that give way have no
+        blows; the impulses of their contacts are in `impacts`.
+        """
+        import pandas as pd
+
+        from bumpstop.post.blows import blow_table
+
+        table = pd.DataFrame(blow_table(self))
+        table.attrs["units"] = {"time": "s", "impulse": "N s"}
+        return table
+
+    @property
     def events(self) -> pd.DataFrame:
         """Every switch of every law: ``time`` in s, ``law``, ``guard``, ``before``, ``after``."""
         import pandas as pd

@@ -10,6 +10,7 @@ import numpy as np
 from bumpstop.errors import InputError
 from bumpstop.files import written_whole
 from bumpstop.io.signals import sampled_blocks, signals
+from bumpstop.post.blows import blow_table
 
 if TYPE_CHECKING:
     from bumpstop.post.impacts import Table
@@ -27,8 +28,9 @@ def write_mat(response: Response, path: str | PathLike[str]) -> None:
     """Write a response, tabulated at its times, to a MATLAB file.
 
     It has ``time`` and each signal as columns, structs ``units`` and ``long_names`` of the
-    signals, and structs ``impacts`` and ``events`` of columns as in `Response.impacts` and
-    `Response.events`. The format is held in memory while it is written.
+    signals, and structs ``impacts``, ``impulses`` and ``events`` of columns as in
+    `Response.impacts`, `Response.impulses` and `Response.events`. The format is held in memory
+    while it is written.
 
     Parameters
     ----------
@@ -61,6 +63,7 @@ def write_mat(response: Response, path: str | PathLike[str]) -> None:
         "units": {each.name: each.units for each in wanted},
         "long_names": {each.name: each.long_name for each in wanted},
         "impacts": _struct(response.impact_table()),
+        "impulses": _struct(blow_table(response)),
         "events": _struct(response.event_table()),
         "method": response.method,
     }

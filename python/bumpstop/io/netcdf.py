@@ -72,8 +72,9 @@ def write_netcdf(
     that the run has kept), forces, gaps and states of the stops, with
     friction also its forces, strains of the gauges, displacements of all mesh nodes along the
     axes that are free (where the basis knows its structure), motions of the problem's outputs
-    and of the nodes at the stops, and the energy ledger; beside them tables of impacts and of
-    events, and the problem itself, from which `bumpstop.read_netcdf` makes the response again.
+    and of the nodes at the stops, and the energy ledger; beside them tables of impacts, of blows
+    on rigid stops and of events, and the problem itself, from which `bumpstop.read_netcdf` makes
+    the response again.
     Names, units and attributes follow the CF conventions, version 1.11; attributes of the file
     say what made it and how. Long responses are written block by block.
 
@@ -135,6 +136,7 @@ def _further(
 
 def _of_the_run(response: Response, words: list[str]) -> Iterator[Variable]:
     yield from _impacts(response)
+    yield from _blows(response)
     yield from _events(response)
     if response.problem.laws:
         meaning = {"long_name": "what the flags of state mean"}
@@ -351,6 +353,23 @@ def _impacts(response: Response) -> Iterator[Variable]:
     for name, quantity in IMPACTS.items():
         values = np.array(table[name], dtype=float)
         yield Variable(f"impact_{name}", along, values, quantity.attributes)
+
+
+def _blows(response: Response) -> Iterator[Variable]:
+    """Give the blows on rigid stops, which the force over time lacks."""
+    if not any(hasattr(law, "restitution") for law in response.problem.laws):
+        return
+    from bumpstop.post.blows import blow_table
+
+    table = blow_table(response)
+    numbers = {
+        "time": {"units": "s", "long_name": "instant of the blow"},
+        "impulse": {"units": "N s", "long_name": "impulse on the structure along the normal"},
+    }
+    along, words = ("blow",), {"long_name": "name of the rigid stop"}
+    yield Variable("blow_stop", along, _texts(table["stop"]), words)
+    for name, attributes in numbers.items():
+        yield Variable(f"blow_{name}", along, np.array(table[name], dtype=float), attributes)
 
 
 def _events(response: Response) -> Iterator[Variable]:
