@@ -176,6 +176,45 @@ def test_a_stop_that_pushes_again_before_its_gap_opens() -> None:
     np.testing.assert_allclose(found, expected, atol=1e-5 * float(np.abs(expected).max()))
 
 
+def test_dampers_of_several_slopes() -> None:
+    """Their force has kinks and no jumps: beside a stop, against neighbouring runs."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[1.0, 9.3], damping=0.02, shapes={("P", "dx"): [1.0, 1.0]}
+    )
+    laws: list[Any] = [
+        bs.DamperLaw(
+            "valve", node="P", direction=(1, 0, 0), damping=(1.0, 12.0, 3.0), breaks=(-1.0, 2.0)
+        ),
+        bs.Stop("wall", node="P", normal=(1, 0, 0), gap=0.05, stiffness=400.0, damping=2.0),
+    ]
+    load = bs.NodalForce("load", node="P", force=(300.0, 0, 0), time=bs.Harmonic(2.3, cosine=1.0))
+
+    def problem(state: FloatArray) -> bs.Problem:
+        start = bs.ModalState(displacement=state[:2], velocity=state[2:])
+        return bs.Problem(basis, laws=laws, loads=[load], initial=start, duration=1.0)
+
+    state = np.array([0.1, 0.0, 0.0, 0.0])
+    run = bs.simulate(problem(state), "exact")
+    assert {"valve", "wall"} == set(run.events["law"])
+    expected = by_differences(problem, state)
+    found = tangent_map(run)
+    np.testing.assert_allclose(found, expected, atol=1e-5 * float(np.abs(expected).max()))
+
+
+def test_what_remembers_is_refused_by_name() -> None:
+    basis = bs.ModalBasis.from_modes(
+        frequency=[1.0], shapes={("P", "dx"): [1.0], ("P", "dy"): [0.5]}
+    )
+    pad = bs.Stop(
+        "pad", node="P", normal=(1, 0, 0), gap=0.1, stiffness=1e3,
+        friction=0.3, sliding={("P", "dy"): 1.0}, tangential_stiffness=1e3,
+    )  # fmt: skip
+    run = bs.simulate(bs.Problem(basis, laws=[pad], duration=1.0), "exact")
+    with pytest.raises(bs.InputError, match=r"law: rubs.*'pad'.*stops without friction") as caught:
+        bs.lyapunov_exponents(run)
+    assert "\n" not in str(caught.value)
+
+
 def test_it_converges_and_can_be_drawn() -> None:
     found = bs.lyapunov_exponents(impact_oscillator(duration=40.0), exponents=2)
     assert found.convergence.dims == ("time", "exponent")

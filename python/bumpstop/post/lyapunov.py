@@ -24,6 +24,7 @@ import numpy as np
 from bumpstop.arguments import FloatArray, count, not_negative
 from bumpstop.canonical import velocity_matrix
 from bumpstop.errors import InputError
+from bumpstop.laws.damper import DamperLaw
 from bumpstop.laws.rigid_stop import RigidStop
 from bumpstop.laws.spring import SpringLaw
 from bumpstop.laws.stop import Stop
@@ -94,7 +95,8 @@ def lyapunov_exponents(
     ----------
     response
         A run of the exact method whose laws are stops without friction, rigid stops that do not
-        come to rest, and springs.
+        come to rest, and springs and dampers of one or several slopes. What rubs or yields has
+        states beside the motion, and is not taken.
     exponents
         How many, at most twice the number of modes.
     start
@@ -103,7 +105,7 @@ def lyapunov_exponents(
     Raises
     ------
     InputError
-        If a law has friction or rests, laws switch together, or the method is another one.
+        If a law rubs, rests or remembers, laws switch together, or the method is another one.
 
     Examples
     --------
@@ -223,6 +225,9 @@ class _Tangents:
             deformation = float(history.law_motion(number, at)[0][0])
             segment = int(np.searchsorted(law.breaks, deformation))
             return law.stiffness[segment], law.damping
+        if isinstance(law, DamperLaw):
+            speed = float(history.law_motion(number, at)[1][0])
+            return 0.0, law.damping[int(np.searchsorted(law.breaks, speed))]
         if isinstance(law, Stop) and history.law_states(number, at)[0] == "closed":
             return law.stiffness, law.damping
         return 0.0, 0.0
@@ -283,7 +288,8 @@ class _Tangents:
         law, basis = self._laws[number], self._response.problem.basis
         if isinstance(law, Stop) and law.friction is None:
             return law.row(basis)
-        if isinstance(law, SpringLaw):
+        # Forces without jumps: neither do differences jump where their slopes change.
+        if isinstance(law, SpringLaw | DamperLaw):
             return law.row(basis)
         if isinstance(law, RigidStop):
             if law.restitution == 0.0:
@@ -293,5 +299,8 @@ class _Tangents:
                 what = "comes to rest, where neighbouring motions become one"
                 raise InputError(what, key="law", value=law.name)
             return law.row(basis)
-        what = "differences of motions are not followed through this law"
-        raise InputError(what, key="law", value=law.name, hint="leave friction out")
+        what = "remembers more than displacements and velocities: no differences are followed"
+        if isinstance(law, Stop):
+            what = "rubs, and its slider is a state of its own: no differences are followed"
+        hint = "stops without friction, rigid ones, and springs and dampers of slopes are taken"
+        raise InputError(what, key="law", value=law.name, hint=hint)
