@@ -31,6 +31,47 @@ def test_auto_is_exact_and_says_why() -> None:
     assert dict(response.options) == {}
 
 
+@pytest.mark.parametrize(("highest", "taken"), [(1e3, "dop853"), (1e5, "exprk43")])
+def test_auto_steps_over_stiff_modes_where_a_law_is_smooth(highest: float, taken: str) -> None:
+    """Both come to the same motion, against the pair that follows every mode."""
+    basis = bs.ModalBasis.from_modes(
+        frequency=[5.0, 40.0, highest],
+        damping=[0.01, 0.01, 0.01],
+        shapes={("P", "dx"): [1.0, 0.6, 0.3]},
+    )
+    spring = bs.ForceRelation("spring", node="P", direction=(1, 0, 0), force="-1e9 * x**3")
+    start = bs.ModalState(velocity=[0.5, 0.3, 0.0])
+    stiff = bs.Problem(basis, laws=[spring], initial=start, duration=0.02)
+    response = bs.simulate(stiff)
+    assert response.method == taken
+    assert "is not piecewise linear" in response.method_reason
+    assert ("times the lowest frequency" in response.method_reason) == (taken == "exprk43")
+    other = bs.simulate(stiff, "dop853", rtol=1e-11)
+    found, expected = (each.sample("displacement", "P", "dx") for each in (response, other))
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-7 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize(
+    ("more", "what"),
+    [
+        ({"friction": 0.3}, "auto finds none: exact does not take friction at rigid stops"),
+        ({}, "auto finds none: dop853 does not take rigid stops such as 'wall'"),
+    ],
+)
+def test_auto_says_which_parts_no_method_of_its_own_takes(more: dict[str, Any], what: str) -> None:
+    basis = bs.ModalBasis.from_modes(
+        frequency=[5.0, 7.0], shapes={("P", "dx"): [1.0, 0.0], ("P", "dy"): [0.0, 1.0]}
+    )
+    wall = bs.RigidStop("wall", node="P", normal=(1, 0, 0), restitution=0.5, **more)
+    ball: Any = bs.HertzStop("ball", node="P", normal=(-1, 0, 0), gap=1e-3, stiffness=1e7)
+    laws = [wall] if more else [wall, ball]
+    with pytest.raises(bs.InputError) as caught:
+        bs.simulate(bs.Problem(basis, laws=laws, duration=1.0))
+    assert str(caught.value).startswith(f"method: {what}")
+    assert "moreau_jean with a step dt does" in str(caught.value)
+    assert "got" not in str(caught.value)
+
+
 def test_what_is_asked_for_is_taken() -> None:
     response = bs.simulate(problem(), method="central_difference", dt=1e-4)
     assert response.method == "central_difference"

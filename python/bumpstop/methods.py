@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from bumpstop.arguments import did_you_mean, finite
 from bumpstop.errors import InputError
 from bumpstop.problem import Law, Problem
@@ -86,19 +88,34 @@ FULL_METHODS = ("newmark", "hht", "generalized_alpha", "central_difference")
 """Methods that take a full model, which is not reduced to modes."""
 RIGID_METHODS = ("exact", "moreau_jean")
 """Methods that take rigid stops, at which velocities jump."""
+STIFF = 1e4
+"""Highest over lowest frequency from which explicit steps would follow modes that hardly move.
+
+Measured on 2 to 32 modes with a Hertz contact, a cubic spring and a plastic one: ``exprk43`` takes
+three to eight times as long as ``dop853`` at ratios of 4 to 20, 0.7 to 1.7 times at 2e3, 0.15 to
+0.7 times at 2e4 and 0.08 to 0.3 times at 2e5."""
 MODE_BY_MODE = ("central_difference", "devogelaere", "exponential")
 """Methods that carry each mode by itself."""
 
 
-def check_method(method: str, problem: Problem) -> None:
-    """Raise where a method does not take what the problem is made of."""
-    _refuse_full_model(method, problem)
-    _refuse_coupled_modes(method, problem)
-    _refuse_changing_speed(method, problem)
-    _refuse_rigid_stops(method, problem)
-    _refuse_rigid_friction(method, problem)
-    _refuse_stepped_laws(method, problem)
-    _refuse_smooth_laws(method, problem)
+def check_method(method: str, problem: Problem, *, by_auto: bool = False) -> None:
+    """Raise where a method, which ``"auto"`` may have taken, does not take the problem."""
+    try:
+        for refuse in (
+            _refuse_full_model,
+            _refuse_coupled_modes,
+            _refuse_changing_speed,
+            _refuse_rigid_stops,
+            _refuse_rigid_friction,
+            _refuse_stepped_laws,
+            _refuse_smooth_laws,
+        ):
+            refuse(method, problem)
+    except InputError as error:
+        if not by_auto:
+            raise
+        what = f"auto finds none: {method} {error.what}"
+        raise InputError(what, key=error.key, hint=error.hint) from None
 
 
 def check_options(method: str, unknown: Mapping[str, object], known: Mapping[str, object]) -> None:
@@ -142,14 +159,30 @@ def choose(method: str, problem: Problem) -> tuple[str, str]:
         return method, ASKED
     if problem.basis.unreduced:
         return "newmark", "a full model is stepped through time"
+    turning = changing_speed(problem)
     for law in problem.laws:
         reason = smoothness(law)
         if reason:
-            return "dop853", f"{law.name!r} is not piecewise linear: {reason}"
-    turning = changing_speed(problem)
+            why = f"{law.name!r} is not piecewise linear: {reason}"
+            reach = _reach(problem)
+            if reach >= STIFF and turning is None:
+                return (
+                    "exprk43",
+                    f"{why}; and the modes reach {reach:.0e} times the lowest frequency",
+                )
+            return "dop853", why
     if turning is not None:
         return "dop853", f"{turning} changes in speed"
     return "exact", "all laws are piecewise linear"
+
+
+def _reach(problem: Problem) -> float:
+    """Return the highest over the lowest frequency of modes that have one, if none are coupled."""
+    basis = problem.basis
+    frequencies = np.sqrt(np.abs(basis.omega2[basis.omega2 != 0.0]))
+    if basis.couples or basis.gyroscopic is not None or not len(frequencies):
+        return 1.0
+    return float(frequencies.max() / frequencies.min())
 
 
 def usable_options(method: str, options: Mapping[str, object], problem: Problem) -> dict[str, Any]:

@@ -86,7 +86,8 @@ def simulate(
         What to simulate.
     method
         ``"exact"`` solves each phase between two contacts in closed form; ``"auto"`` takes it
-        wherever it applies, and ``"dop853"`` where a law is smooth. ``"rk32"``, ``"rk54"`` and
+        wherever it applies, and where a law is smooth ``"dop853"``, or ``"exprk43"`` if the modes
+        reach 1e4 times their lowest frequency. ``"rk32"``, ``"rk54"`` and
         ``"dop853"`` are Runge-Kutta pairs of order 3, 5 and 8 whose steps follow a tolerance,
         ``"exprk43"`` is one of order 4 for stiff modes; the steps of
         ``"adaptive_central_difference"`` (order 2) follow the frequency that the motion shows.
@@ -182,7 +183,7 @@ def simulate(
     of_tolerance = {"rtol": rtol, "atol": atol, "exact_flights": exact_flights}
     given = {"dt": dt, "beyond_stability_limit": beyond, **of_tolerance, **of_scheme}
     check_options(chosen, unknown, given)
-    check_method(chosen, problem)
+    check_method(chosen, problem, by_auto=method == "auto")
     if exact_flights is not None:
         exact_flights = boolean("exact_flights", exact_flights)
     parameters = checked_parameters(chosen, of_scheme)
