@@ -129,6 +129,26 @@ def test_runs_that_kept_a_few_dofs_are_read(
     assert not whole.equals(again)
 
 
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("most", [0, 2**30], ids=["few", "all"])
+def test_between_instants_the_run_is_repeated(
+    method: str, most: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To the bit, of all dofs or of the few that were kept; no other dofs pass for these."""
+    monkeypatch.setattr(full, "KEPT", most)
+    response = run_of(method)
+    again = read_again(response, tmp_path)
+    times = np.random.default_rng(3).uniform(0.0, response.problem.duration, 40)
+    for target in (("displacement", "B", "dz"), ("stop_force", "tip"), ("gauge", "strain")):
+        found = again.sample(*target, times=times)
+        assert np.array_equal(found, response.sample(*target, times=times))
+    if most == 0:
+        other = read_again(response, tmp_path)
+        monkeypatch.setattr(full, "KEPT", 2**30)
+        with pytest.raises(bs.InputError, match="it keeps the motion of other dofs"):
+            other.sample("stop_force", "tip", times=times)
+
+
 def test_the_matrices_come_back_to_the_bit(tmp_path: Path) -> None:
     response = run_of("newmark")
     written, read = response.problem.basis, read_again(response, tmp_path).problem.basis
