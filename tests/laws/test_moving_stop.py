@@ -1,10 +1,14 @@
 """Obstacles that move: other frames of still ones, and the exponential of the whole."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import bumpstop as bs
+from bumpstop.arguments import FloatArray
 from bumpstop.loads.time import TimeFunction
 
 ROW = {("P", "dx"): [1.0]}
@@ -157,6 +161,75 @@ def test_a_wall_turns_at_a_corner_of_its_table() -> None:
     assert impacts["start"][0] == pytest.approx(0.4, rel=1e-12)
     assert float(response.stop_force("wall").sel(time=0.51, method="nearest")) == 0.0
     assert response.energy_residual < 1e-12
+
+
+CORNERS = np.array([0.0, 0.05, 0.06, 0.2, 0.3, 0.6])
+PLACES = np.array([0.0, 0.02, 0.012, 0.012, 0.03, 0.0])
+
+
+def shaken_by_scipy(times: FloatArray, gap: float, stiffness: float, damping: float) -> FloatArray:
+    """Return where the ball is whose wall has a constant speed between corners."""
+    omega, ratio = 2 * np.pi * 3.0, 0.02
+    found, state = np.empty_like(times), np.zeros(2)
+    for (start, end), (here, there) in zip(pairwise(CORNERS), pairwise(PLACES), strict=True):
+        speed = (there - here) / (end - start)
+
+        def rates(
+            t: float, y: FloatArray, start: float = start, here: float = here, speed: float = speed
+        ) -> list[float]:
+            x, v = y
+            # The wall is on the right: what comes to it moves ahead.
+            distance = gap - x - (here + speed * (t - start))
+            push = max(0.0, -stiffness * distance + damping * (v + speed))
+            force = -push if distance < 0.0 else 0.0
+            return [v, force - omega**2 * x - 2 * ratio * omega * v]
+
+        part = solve_ivp(
+            rates,
+            (start, end),
+            state,
+            method="DOP853",
+            rtol=1e-11,
+            atol=1e-13,
+            max_step=2e-4,
+            dense_output=True,
+        )
+        inside = (times >= start) & (times <= end)
+        found[inside] = part.sol(times[inside])[0]
+        state = part.y[:, -1]
+    return found
+
+
+@pytest.mark.parametrize("damping", [5.0, 20.0, 60.0, 200.0])
+@pytest.mark.parametrize("method", ["exact", "dop853", "flights"])
+def test_a_stop_that_lets_go_where_the_wall_turns_does_not_come_back(
+    damping: float, method: str
+) -> None:
+    """At a corner of the table the force of its damper jumps below zero."""
+    motion = bs.TimeTable(CORNERS, PLACES, beyond="hold")
+    wall = bs.Stop(
+        "wall",
+        node="P",
+        normal=(-1, 0, 0),
+        gap=-0.005,
+        stiffness=2e3,
+        damping=damping,
+        motion=motion,
+    )
+    # A smooth law that is never reached leaves flights to the exact method.
+    far = bs.HertzStop("far", node="P", normal=(1, 0, 0), gap=9.0, stiffness=1e5)
+    problem = bs.Problem(
+        ball(3.0, 0.02), laws=[wall, far] if method == "flights" else [wall], duration=0.6
+    )
+    response = (
+        bs.simulate(problem, "exact")
+        if method == "exact"
+        else bs.simulate(problem, "dop853", rtol=1e-10)
+    )
+    times = np.linspace(0.0, 0.6, 121)
+    expected = shaken_by_scipy(times, -0.005, 2e3, damping)
+    found = response.sample("displacement", "P", "dx", times=times)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
 
 
 def test_what_cannot_move_is_refused() -> None:

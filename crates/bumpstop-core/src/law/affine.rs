@@ -28,6 +28,12 @@ impl Affine {
         acceleration: [0.0; COORDINATES],
     };
 
+    /// Whether it depends on accelerations.
+    #[inline(always)]
+    pub fn asks_acceleration(&self) -> bool {
+        self.acceleration != Self::ZERO.acceleration
+    }
+
     /// One local coordinate.
     pub const fn coordinate(number: usize) -> Self {
         let mut coordinate = Self::ZERO;

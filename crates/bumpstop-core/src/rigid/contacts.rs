@@ -83,8 +83,8 @@ pub(crate) struct Contacts {
     pub blows: Vec<Blow>,
     /// The stops that were in touch at the last look and are open.
     pub departures: Vec<Departure>,
-    /// Whether velocities jumped there.
-    pub jumped: bool,
+    /// When velocities jumped last.
+    jumped: Option<f64>,
 }
 
 impl Contacts {
@@ -127,10 +127,15 @@ impl Contacts {
         place.map_or(0.0, |place| self.sizes[place])
     }
 
+    /// Whether velocities jumped at a time.
+    #[inline(always)]
+    pub(crate) fn jumped_at(&self, time: f64) -> bool {
+        self.jumped == Some(time)
+    }
+
     /// Forgets the last look.
     pub(crate) fn clear(&mut self) {
         self.departures.clear();
-        self.jumped = false;
     }
 
     /// Refuses a start inside a stop.
@@ -231,7 +236,7 @@ impl Contacts {
             now = switch("impact", after);
             let (before, after) = (outcome.before, outcome.after);
             self.blows.push(blow(outcome.impulse, before, after, true));
-            self.jumped = true;
+            self.jumped = Some(time);
         }
         if outcome.end != 0.0 {
             self.blows

@@ -129,8 +129,8 @@ impl<L: Law, S: Stepping<L>> Run<'_, L, S> {
         }
         self.time = flight.end;
         self.check_growth()?;
-        if let Some((event, guard)) = flight.switch {
-            self.take(event, guard)?;
+        if let Some((event, zero)) = flight.switch {
+            self.take(event, zero)?;
         }
         Ok(true)
     }

@@ -61,6 +61,10 @@ const ANSWERED: f64 = 0.5;
 /// be without bounds there, as at the rest of a damper with a power of the speed below one.
 const LEFT_BY_SMOOTH_LAWS: f64 = 1e-6;
 
+/// So many times its rounding a guard is below zero at a switch that it has been passed by: the
+/// speed of an obstacle has jumped.
+const PASSED_BY: f64 = 1e6;
+
 /// Steps below this many times the rounding of the time are too small.
 const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
 
@@ -388,11 +392,14 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
             before,
             after,
         };
-        self.take(event, guard)
+        let (value, zero) = guard.function.value(&acting(before));
+        let passed_by = value < -PASSED_BY * zero && !guard.function.asks_acceleration();
+        self.take(event, (!passed_by).then_some(guard))
     }
 
-    /// Takes note of a switch and lets its law go on in the state that follows.
-    fn take(&mut self, event: Event, guard: Guard) -> Result<()> {
+    /// Takes note of a switch, with its guard if that is zero, and lets its law go on in the state
+    /// that follows.
+    fn take(&mut self, event: Event, zero: Option<Guard>) -> Result<()> {
         let (problem, law) = (self.problem, event.law);
         self.at_once += 1;
         if self.at_once > MOST_SWITCHES_AT_ONCE * problem.laws.len() {
@@ -407,7 +414,7 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
         layout.remember(law, event.after, numbers);
         self.events.push(event);
         self.fired.retain(|(fired, _)| *fired != law);
-        self.fired.push((law, guard));
+        self.fired.extend(zero.map(|guard| (law, guard)));
         self.states[law] = event.after;
         self.equations.take_states(&self.states);
         self.h = (self.h).min(answered_step(self.equations.linear_answers()));

@@ -203,8 +203,7 @@ fn has_jumped<L: Law>(
     function: &Affine,
     moment: Moment<'_>,
 ) -> bool {
-    function.acceleration != Affine::ZERO.acceleration
-        && is_below(problem, states, law, function, moment)
+    function.asks_acceleration() && is_below(problem, states, law, function, moment)
 }
 
 #[cold]
@@ -254,7 +253,8 @@ impl Contacts {
             Some(departure) if departure.is_tangent => Some(Start::Tangent),
             Some(_) => Some(Start::Zero(None)),
             None => {
-                let jumps = self.jumped && function.velocity != Affine::ZERO.velocity;
+                let jumps =
+                    self.jumped_at(phase.start) && function.velocity != Affine::ZERO.velocity;
                 let is_below = jumps && value < -signal.rounding(0.0);
                 Some(if is_below { Start::Below } else { start })
             }
@@ -271,7 +271,8 @@ impl Contacts {
     }
 }
 
-/// The event that the crossing of a watched guard makes at the end of a phase, and that guard.
+/// The event that the crossing of a watched guard makes at the end of a phase, and that guard if it
+/// is zero there: velocities that jump, be it those of an obstacle, pass guards by.
 pub(crate) fn event_of<L: Law>(
     problem: &Problem<L>,
     phases: &Phases,
@@ -279,7 +280,7 @@ pub(crate) fn event_of<L: Law>(
     watch: &Watch,
     crossing: Crossing,
     [q, v]: [&[f64]; 2],
-) -> (Event, Guard) {
+) -> (Event, Option<Guard>) {
     let (number, index) = watch.guards[crossing.watched];
     let (law, before) = (&problem.laws[number], phases.states(phase)[number]);
     let guard = law.guard(before, index);
@@ -304,7 +305,9 @@ pub(crate) fn event_of<L: Law>(
         before,
         after: law.next_state(before, index, acting),
     };
-    (event, guard)
+    let passed_by =
+        watch.starts[crossing.watched] == Start::Below && !guard.function.asks_acceleration();
+    (event, (!passed_by).then_some(guard))
 }
 
 /// The local motion that a law sees `t` after the start of a phase. Only laws with memory ask

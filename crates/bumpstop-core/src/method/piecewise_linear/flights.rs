@@ -43,8 +43,8 @@ pub(crate) struct Flight {
     /// Displacements and velocities at its end.
     pub motion: [Vec<f64>; 2],
     pub works: Works,
-    /// The switch that ends it, with the guard that reached zero.
-    pub switch: Option<(Event, Guard)>,
+    /// The switch that ends it, with its guard if that is zero.
+    pub switch: Option<(Event, Option<Guard>)>,
 }
 
 impl<'a, L: Law> Flights<'a, L> {

@@ -263,11 +263,13 @@ impl<'a, L: Law> Run<'a, L> {
             }
             if cause == Cause::Other {
                 let watch = &self.scratch.watch;
-                let (event, guard) =
+                let (event, zero) =
                     event::event_of(problem, &self.phases, phase, watch, crossing, [&q, &v]);
                 states[event.law] = event.after;
                 self.scratch.fired.retain(|(law, _)| *law != event.law);
-                self.scratch.fired.push((event.law, guard));
+                self.scratch
+                    .fired
+                    .extend(zero.map(|guard| (event.law, guard)));
                 self.events.push(event);
                 self.still.release(event.law);
             }
