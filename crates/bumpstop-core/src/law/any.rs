@@ -236,6 +236,10 @@ impl Law for AnyLaw {
         ask!(self, law => law.has_failed())
     }
 
+    fn after_jump(&self, state: State, position: &Local<f64>, jump: [&Local<f64>; 2]) -> State {
+        ask!(self, law => law.after_jump(state, position, jump))
+    }
+
     fn is_stepped(&self) -> bool {
         ask!(self, law => law.is_stepped())
     }

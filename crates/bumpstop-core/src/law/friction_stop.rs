@@ -98,6 +98,9 @@ pub struct FrictionStop {
 const NORMAL: usize = 0;
 const SLIDING: usize = 1;
 
+/// Part of a normal force by which it has jumped, and not been rounded.
+const JUMP: f64 = 1e-9;
+
 /// Speed in m/s up to which nothing slides by the sign of the velocity.
 const STILL: f64 = 1e-6;
 
@@ -434,6 +437,27 @@ impl Law for FrictionStop {
         [slider, f64::NAN]
     }
 
+    /// Where the normal force jumps up the slider stays, and with it the force of the spring: it is
+    /// inside the cone now. Where that jumps down the slider goes ahead at once, and slides on.
+    fn after_jump(
+        &self,
+        state: State,
+        position: &Local<f64>,
+        [before, after]: [&Local<f64>; 2],
+    ) -> State {
+        let Some(sign) = Self::sliding(state) else {
+            return state;
+        };
+        let push = |velocity| self.normal.force(Stop::CLOSED, position, velocity)[NORMAL];
+        let (was, is) = (push(before), push(after));
+        if is - was <= JUMP * is.abs().max(was.abs()) {
+            return state;
+        }
+        let carried =
+            self.friction.damping * after[SLIDING] - sign * self.friction.dynamic_coefficient * was;
+        Self::stick(position[SLIDING] + carried / self.friction.stiffness)
+    }
+
     fn is_stepped(&self) -> bool {
         self.friction.rule == SlidingRule::VelocitySign
     }
@@ -507,7 +531,8 @@ impl Law for FrictionStop {
         let motion = acting(state);
         let held = Self::HELD.contains(&state.number);
         let (other, zero) = self.progress(sign, !held).value(&motion);
-        if other <= zero {
+        // Without a damper both are the same function, which has just come to zero.
+        if self.friction.damping == 0.0 || other <= zero {
             self.stick_again(sign, &motion)
         } else if held {
             Self::slip(sign, self.slider_in(sign, &motion))

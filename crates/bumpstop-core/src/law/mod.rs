@@ -240,6 +240,12 @@ pub trait Law: Clone + Send + Sync {
         false
     }
 
+    /// The state behind an instant at which velocities jump from one to the other: the same where
+    /// guards that are passed by say all of it.
+    fn after_jump(&self, state: State, _position: &Local<f64>, _: [&Local<f64>; 2]) -> State {
+        state
+    }
+
     /// Whether its states must be sampled once a step, in order, as those of a program outside or
     /// of a rule that is defined from step to step.
     fn is_stepped(&self) -> bool {

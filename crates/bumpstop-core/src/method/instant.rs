@@ -1,5 +1,6 @@
 //! What the equations of motion say of the laws' local motion at one instant, without a spectrum.
 
+use crate::history::Event;
 use crate::law::{Affine, COORDINATES, Law, Local, LocalMotion, Piece, State, project};
 use crate::number::Dual;
 use crate::problem::Problem;
@@ -57,6 +58,39 @@ pub(crate) fn initial_states<L: Law>(
         changes = true;
     }
     changes
+}
+
+/// Lets laws whose memory is not told by guards go on behind an instant at which velocities, those
+/// of the structure or of obstacles, may have jumped; returns the switches.
+#[cold]
+pub(crate) fn after_jump<L: Law>(
+    problem: &Problem<L>,
+    states: &[State],
+    before: &[f64],
+    moment: Moment<'_>,
+) -> Vec<Event> {
+    let Moment {
+        time,
+        displacement,
+        velocity,
+    } = moment;
+    let mut events = Vec::new();
+    for (index, (law, state)) in problem.laws.iter().zip(states).enumerate() {
+        // Just before, an obstacle is on the course that ends.
+        let [_, was] = problem.local(index, time.next_down(), displacement, before);
+        let [position, is] = problem.local(index, time, displacement, velocity);
+        let after = law.after_jump(*state, &position, [&was, &is]);
+        if after != *state {
+            events.push(Event {
+                time,
+                law: index,
+                guard: "stick",
+                before: *state,
+                after,
+            });
+        }
+    }
+    events
 }
 
 /// Position and velocity of one law's local coordinates, without what follows of forces.

@@ -225,6 +225,7 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
         while self.time < duration {
             // Loads may change their course at a knot.
             let limit = self.equations.turn(self.time).min(duration);
+            self.pass_corner()?;
             if self.fly(limit)? {
                 self.look(observer)?;
                 continue;
@@ -243,6 +244,24 @@ impl<'a, L: Law, S: Stepping<L>> Run<'a, L, S> {
             self.record.keep_flights(flights.record());
         }
         Ok((self.record, self.events))
+    }
+
+    /// Lets laws go on where the speed of an obstacle may have jumped.
+    fn pass_corner(&mut self) -> Result<()> {
+        let problem = self.problem;
+        if self.time == 0.0 || problem.forcing.moved().next().is_none() {
+            return Ok(());
+        }
+        let [q, v] = self.equations.layout.motion(self.stepping.numbers());
+        let moment = Moment {
+            time: self.time,
+            displacement: q,
+            velocity: v,
+        };
+        for event in instant::after_jump(problem, &self.states, v, moment) {
+            self.take(event, None)?;
+        }
+        Ok(())
     }
 
     /// Looks after a run now and then.

@@ -243,6 +243,9 @@ impl<'a, L: Law> Run<'a, L> {
                     .motion::<I>(phase, limit, &mut self.scratch.work, &mut q, &mut v);
                 (time, at_once) = (until, 0);
                 self.scratch.fired.clear();
+                if problem.forcing.moved().next().is_some() {
+                    self.jump(time, &q, [&v, &v], &mut states);
+                }
                 if !self.contacts.is_empty() {
                     (self.contacts).see_phase(problem, &self.scratch.watch, limit);
                     self.meet(Cause::Other, time, &q, &mut v, &mut states)?;
@@ -367,7 +370,25 @@ impl<'a, L: Law> Run<'a, L> {
             time,
             phase: self.phases.list.len(),
         };
-        (self.contacts).meet(self.problem, place, q, v, states, &mut self.events)
+        let before = v.to_vec();
+        (self.contacts).meet(self.problem, place, q, v, states, &mut self.events)?;
+        if self.contacts.jumped_at(time) {
+            self.jump(time, q, [&before, v], states);
+        }
+        Ok(())
+    }
+
+    /// Lets laws go on behind an instant at which velocities may have jumped.
+    fn jump(&mut self, time: f64, q: &[f64], [before, v]: [&[f64]; 2], states: &mut [State]) {
+        let moment = Moment {
+            time,
+            displacement: q,
+            velocity: v,
+        };
+        for event in instant::after_jump(self.problem, states, before, moment) {
+            states[event.law] = event.after;
+            self.events.push(event);
+        }
     }
 
     /// Turns to the loads from a time on and to the stretch in which it lies; returns the next
